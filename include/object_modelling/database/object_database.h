@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "object_modelling/base/job_control.h"
+#include "object_modelling/database/object_model.h"
+
+namespace object_modelling::database
+{
+/// What manifest.yaml and object.yaml say of an object; no geometry loaded.
+struct ObjectEntry
+{
+  std::string id, name;
+  std::string content_hash;  ///< SHA-256 over the object's files
+  std::vector<ModelSession> sessions;
+  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
+  double diameter_m = 0;
+  std::map<std::string, double> quality;
+  std::string mesh_path;  ///< absolute, mesh/mesh.ply
+};
+
+/// A folder of models, readable without us (layout: docs/object_database.md). Every write goes to a temporary folder
+/// inside the root and is renamed; a crash leaves the old object whole. Several readers, one writer (a lock file).
+/// Throws base::Error: STORAGE (not writable, disk full, newer schema), NOT_FOUND, INVALID_ARGUMENT (object id).
+class ObjectDatabase
+{
+public:
+  /// Opens; creates the folder and an empty manifest if `create`. Checks at once that it can be written if `create`.
+  ObjectDatabase(const std::string& root, bool create);
+
+  std::vector<ObjectEntry> list() const;
+  ObjectEntry entry(const std::string& object_id) const;
+  /// Writes or replaces one object in one atomic step; returns its folder.
+  std::string write(const ObjectModel& model, base::JobControl& control);
+  void remove(const std::string& object_id);
+  /// Every broken file, hash, unit or frame, one message each; empty when sound.
+  std::vector<std::string> check() const;
+  const std::string& root() const { return root_; }
+
+private:
+  std::string root_;
+};
+
+}  // namespace object_modelling::database

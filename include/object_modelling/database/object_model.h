@@ -1,0 +1,39 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "object_modelling/fusion/cloud_fusion.h"
+#include "object_modelling/geometry/oriented_box.h"
+#include "object_modelling/geometry/triangle_mesh.h"
+#include "object_modelling/rgbd/keyframe.h"
+
+namespace object_modelling::database
+{
+struct ModelSession
+{
+  std::string id;
+  Eigen::Isometry3d T_model_session = Eigen::Isometry3d::Identity();
+  int keyframe_count = 0;
+};
+
+/// One object as the database holds it. Object frame: origin at the centre of the oriented bounding box, z up in the
+/// first resting pose. Metres.
+struct ObjectModel
+{
+  std::string id;
+  std::string name;  ///< for people; the id where none was given
+  std::vector<ModelSession> sessions;
+  geometry::OrientedBox box_model;
+  double diameter_m = 0;                           ///< largest distance between two surface points
+  std::vector<Eigen::Isometry3d> T_support_model;  ///< resting poses: z up, support at z = 0
+  std::map<std::string, double> quality;           ///< figures by name, units in the names
+  std::map<std::string, std::string> provenance;   ///< recording, software version, options
+  fusion::FusedCloud cloud;                        ///< in the object frame
+  geometry::TriangleMesh mesh;
+  std::vector<rgbd::Keyframe> views;  ///< T_session_camera holds T_model_camera
+};
+
+}  // namespace object_modelling::database

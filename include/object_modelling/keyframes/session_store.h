@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "object_modelling/base/status.h"
+#include "object_modelling/keyframes/session.h"
+#include "object_modelling/rgbd/keyframe.h"
+
+namespace object_modelling::keyframes
+{
+struct PoseUpdate
+{
+  int keyframe_id = -1;
+  Eigen::Isometry3d T_session_camera = Eigen::Isometry3d::Identity();
+  geometry::Matrix6d covariance = geometry::Matrix6d::Zero();
+};
+
+struct MaskUpdate
+{
+  int keyframe_id = -1;
+  cv::Mat object_mask;  ///< CV_8UC1, of the keyframe's size; empty removes it
+};
+
+/// Owner of session data. Implemented over SQL (openSqlStore) and, in ros_bridge, over the keyframe_store node's
+/// services; every stage takes this interface. Every call is one transaction: done whole or not at all.
+/// All calls throw base::Error: NOT_FOUND (session, keyframe), INVALID_ARGUMENT (id, size), FAILED_PRECONDITION (exists
+/// already, keyframe id taken), STORAGE (full disk, locked, newer schema), always naming session and remedy.
+class SessionStore
+{
+public:
+  virtual ~SessionStore() = default;
+
+  virtual void createSession(const Session& session) = 0;
+  virtual std::vector<Session> listSessions() = 0;  ///< oldest first
+  virtual Session session(const std::string& session_id) = 0;
+  /// Replaces object_id, closed, support_plane_session and T_model_session.
+  virtual void updateSession(const Session& session) = 0;
+  virtual void deleteSession(const std::string& session_id) = 0;
+
+  virtual void addKeyframe(const std::string& session_id, const rgbd::Keyframe& keyframe) = 0;
+  virtual std::vector<int> keyframeIds(const std::string& session_id) = 0;  ///< ascending
+  virtual rgbd::Keyframe keyframe(const std::string& session_id, int keyframe_id) = 0;
+  virtual void updatePoses(const std::string& session_id, const std::vector<PoseUpdate>& updates) = 0;
+  virtual void updateMasks(const std::string& session_id, const std::vector<MaskUpdate>& updates) = 0;
+
+  /// One session as a store file of its own (SQLite, whatever the backend), and back under its own id.
+  virtual void exportSession(const std::string& session_id, const std::string& path) = 0;
+  virtual std::string importSession(const std::string& path) = 0;
+};
+
+/// All keyframes of a session, ascending.
+std::vector<rgbd::Keyframe> loadKeyframes(SessionStore& store, const std::string& session_id);
+
+/// Opens or creates a store. `connection`: path of a SQLite file (WAL), or "postgresql://..." as SOCI spells it.
+/// Safe for several threads (calls are serialised) and, on SQLite, several processes.
+std::unique_ptr<SessionStore> openSqlStore(const std::string& connection);
+
+}  // namespace object_modelling::keyframes

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "object_modelling/base/job_control.h"
+#include "object_modelling/rgbd/keyframe.h"
+
+namespace object_modelling::refinement
+{
+struct BundleAdjustmentOptions
+{
+  double pixel_sigma_px = 0.5;     ///< of an observation
+  double loss_width_sigmas = 2.0;  ///< residuals beyond count robustly (Cauchy)
+  int min_observations_per_landmark = 2;
+  int max_iterations = 50;
+  bool link_keyframes = true;  ///< match keyframes that the tracker did not link before adjusting
+  bool object_only = false;    ///< only observations on the object mask (turntable, object in motion)
+  int threads = 1;             ///< more than one: results are no longer equal bit for bit
+  std::uint64_t seed = 1;
+  std::vector<std::string> violations() const;
+};
+
+struct KeyframeResidual
+{
+  int keyframe_id = -1;
+  int observation_count = 0;
+  double reprojection_rmse_before_px = 0, reprojection_rmse_after_px = 0;
+  double depth_rmse_before_m = 0, depth_rmse_after_m = 0;
+};
+
+/// Two keyframes linked by a direct, geometrically verified match: an independent measurement of their relative pose.
+struct KeyframeLink
+{
+  int keyframe_a = -1, keyframe_b = -1;
+  Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();  ///< from the match alone
+  int inlier_count = 0;
+  double translation_error_before_m = 0, translation_error_after_m = 0;  ///< poses against T_a_b
+  double rotation_error_before_rad = 0, rotation_error_after_rad = 0;
+};
+
+struct BundleAdjustmentResult
+{
+  base::Status status;  ///< NO_RESULT: not converged or nothing to adjust; poses are then those that came in
+  std::vector<Eigen::Isometry3d> T_session_camera;  ///< per keyframe, in the order given
+  std::vector<geometry::Matrix6d> covariance;
+  std::vector<KeyframeResidual> residuals;
+  std::vector<KeyframeLink> links;  ///< verified pairs that the tracker had not linked; loop closures among them
+  std::vector<int> left_out;        ///< ids of keyframes that nothing links to the others; poses unchanged
+  int iterations = 0;
+  double initial_cost = 0, final_cost = 0;
+};
+
+/// Joint refinement of keyframe poses and landmarks (Ceres): reprojection and depth residuals with the sigma of the
+/// noise model, robust loss on each, first pose fixed. Deterministic for threads = 1.
+BundleAdjustmentResult adjustBundle(const std::vector<rgbd::Keyframe>& keyframes,
+                                    const BundleAdjustmentOptions& options, base::JobControl& control);
+
+}  // namespace object_modelling::refinement

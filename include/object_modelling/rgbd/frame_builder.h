@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+
+#include <opencv2/core.hpp>
+
+#include "object_modelling/base/status.h"
+#include "object_modelling/rgbd/frame.h"
+
+namespace object_modelling::rgbd
+{
+/// What a sensor or file delivers for one instant, before any check.
+struct RawFrame
+{
+  double stamp_s = 0;
+  double depth_stamp_s = 0;
+  cv::Mat color;  ///< CV_8UC3 BGR or CV_8UC1 gray
+  cv::Mat depth;  ///< CV_16UC1 in depth_unit_m, or CV_32FC1 in metres
+  double depth_unit_m = 0.001;
+  cv::Mat object_mask;             ///< CV_8UC1, > 0 on the object; may be empty
+  geometry::PinholeCamera camera;  ///< of the colour image, with its distortion
+};
+
+struct FrameBuilderOptions
+{
+  double max_stamp_difference_s = 0.02;  ///< colour and depth further apart than this are not one frame
+  double min_depth_ratio = 0.001;        ///< share of pixels that must have depth
+  double min_depth_m = 0.1;              ///< nearer or farther readings count as missing
+  double max_depth_m = 8.0;
+  std::vector<std::string> violations() const;
+};
+
+/// Checks a raw frame and makes a Frame of it: depth in metres, both images rectified (colour bilinear, depth and mask
+/// nearest neighbour) through maps that are computed once per camera. Not thread safe.
+class FrameBuilder
+{
+public:
+  explicit FrameBuilder(const FrameBuilderOptions& options = {});
+
+  /// BAD_INPUT names what is wrong and with which values: empty images, colour and depth of different size, camera of
+  /// another size, unusable intrinsics, stamps apart, no depth at all, encodings.
+  base::Result<Frame> build(const RawFrame& raw);
+
+private:
+  FrameBuilderOptions options_;
+  geometry::PinholeCamera mapped_camera_;
+  cv::Mat map_x_, map_y_;
+};
+
+}  // namespace object_modelling::rgbd

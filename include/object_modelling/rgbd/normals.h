@@ -1,0 +1,21 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "object_modelling/rgbd/frame.h"
+
+namespace object_modelling::rgbd
+{
+struct NormalOptions
+{
+  int radius_px = 4;                    ///< half window
+  double max_depth_step_ratio = 0.015;  ///< a neighbour further than this share of depth is another surface
+  int min_neighbours = 8;
+  std::vector<std::string> violations() const;
+};
+
+/// Unit normals in the optical frame facing the camera, CV_32FC3, NaN where depth is missing or too few neighbours
+/// belong to the same surface. Organised least-squares plane per window, linear time.
+cv::Mat computeNormals(const Frame& frame, const NormalOptions& options = {});
+
+}  // namespace object_modelling::rgbd

@@ -1,0 +1,1 @@
+"""Python side of the object_modelling package."""
