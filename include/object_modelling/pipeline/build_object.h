@@ -1,0 +1,43 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "object_modelling/alignment/session_alignment.h"
+#include "object_modelling/base/job_control.h"
+#include "object_modelling/database/object_database.h"
+#include "object_modelling/fusion/cloud_fusion.h"
+#include "object_modelling/keyframes/session_store.h"
+#include "object_modelling/surface/surface_reconstruction.h"
+
+namespace object_modelling::pipeline
+{
+struct BuildOptions
+{
+  fusion::CloudFusionOptions fusion;
+  surface::SurfaceOptions surface;
+  bool replace = false;  ///< allow another object frame for an object that exists with none of these sessions
+  std::vector<std::string> violations() const;
+};
+
+struct BuildReport
+{
+  base::Status status;
+  std::string object_folder;
+  std::string preview_path;                          ///< PNG of four sides, inside the object's folder
+  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  ///< along the object frame's x, y, z
+  double diameter_m = 0;
+  std::size_t point_count = 0, vertex_count = 0, triangle_count = 0;
+  std::map<std::string, double> stage_s;  ///< seconds by stage
+};
+
+/// Fused cloud, mesh and views of one object from its placed sessions, written into the database in one atomic step;
+/// sets object_id and T_model_session of the sessions in the store. Refuses with the reason: no session, no keyframes,
+/// no masks, an existing object in another frame (unless `replace`).
+BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase& database,
+                        const std::string& object_id, const std::string& name,
+                        const std::vector<alignment::SessionPlacement>& placements, const BuildOptions& options,
+                        base::JobControl& control);
+
+}  // namespace object_modelling::pipeline

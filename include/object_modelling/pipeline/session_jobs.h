@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "object_modelling/alignment/session_alignment.h"
+#include "object_modelling/base/job_control.h"
+#include "object_modelling/keyframes/session_store.h"
+#include "object_modelling/refinement/bundle_adjustment.h"
+#include "object_modelling/segmentation/object_mask_propagator.h"
+
+// The stages between recording and building, each on stored sessions: read, compute, write back in one transaction.
+// A stage that fails or is cancelled leaves the store as it was. All throw base::Error for store errors.
+namespace object_modelling::pipeline
+{
+struct SegmentReport
+{
+  base::Status status;
+  std::string session_id;
+  int keyframe_count = 0;
+  int masked_count = 0;  ///< keyframes in which the object is in view
+  bool support_plane_found = false;
+};
+
+/// Masks for all keyframes, and the support plane. `seed_point_session` names the object; without one it is chosen
+/// automatically.
+SegmentReport segmentSession(keyframes::SessionStore& store, const std::string& session_id,
+                             const std::optional<Eigen::Vector3d>& seed_point_session,
+                             const segmentation::ObjectMaskPropagatorOptions& options, base::JobControl& control);
+
+/// Bundle adjustment of one session; writes the poses back if it succeeded.
+refinement::BundleAdjustmentResult refineSession(keyframes::SessionStore& store, const std::string& session_id,
+                                                 refinement::BundleAdjustmentOptions options,
+                                                 base::JobControl& control);
+
+/// Places the sessions of one object relative to the first; writes nothing (the model frame is set when it is built).
+alignment::AlignmentResult alignSessions(keyframes::SessionStore& store, const std::vector<std::string>& session_ids,
+                                         base::JobControl& control);
+
+}  // namespace object_modelling::pipeline
