@@ -1,3 +1,9 @@
 # Explicit lists: a message that is not listed is not generated.
-add_message_files(FILES Status.msg)
+add_message_files(FILES
+  Status.msg Plane.msg
+  Observation.msg Keyframe.msg ObjectMask.msg PoseUpdate.msg Session.msg StoreState.msg TrackingState.msg)
+add_service_files(FILES
+  StartTracking.srv StopTracking.srv ResetTracking.srv
+  CreateSession.srv ListSessions.srv GetSession.srv UpdateSession.srv SetSessionPose.srv DeleteSession.srv
+  AddKeyframe.srv GetKeyframe.srv UpdatePoses.srv UpdateMasks.srv ExportSession.srv ImportSession.srv)
 generate_messages(DEPENDENCIES actionlib_msgs geometry_msgs sensor_msgs std_msgs)
