@@ -33,6 +33,7 @@ struct ObjectModel
   std::map<std::string, std::string> provenance;   ///< recording, software version, options
   fusion::FusedCloud cloud;                        ///< in the object frame
   geometry::TriangleMesh mesh;
+  cv::Mat preview_bgr;                ///< CV_8UC3, written as preview.png; may be empty
   std::vector<rgbd::Keyframe> views;  ///< T_session_camera holds T_model_camera
 };
 

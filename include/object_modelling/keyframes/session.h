@@ -10,12 +10,14 @@ namespace object_modelling::keyframes
 /// One recording of one object in one resting pose.
 struct Session
 {
-  std::string id;                                        ///< [A-Za-z0-9_.-]+, unique in the store
-  std::string object_id;                                 ///< object it belongs to; empty until known
-  std::string camera_frame_id;                           ///< optical frame of the recording
-  double started_s = 0;                                  ///< stamp of the first keyframe
-  int keyframe_count = 0;                                ///< filled by the store
-  bool closed = false;                                   ///< recording has ended
+  std::string id;               ///< [A-Za-z0-9_.-]+, unique in the store
+  std::string object_id;        ///< object it belongs to; empty until known
+  std::string camera_frame_id;  ///< optical frame of the recording
+  double started_s = 0;         ///< stamp of the first keyframe
+  int keyframe_count = 0;       ///< filled by the store
+  bool reference_is_object =
+      false;            ///< tracked on the object's mask alone (turntable, object in motion): the rest moves
+  bool closed = false;  ///< recording has ended
   std::optional<geometry::Plane> support_plane_session;  ///< normal up
   std::optional<Eigen::Isometry3d> T_model_session;      ///< placed in the model frame; empty until aligned
 };
