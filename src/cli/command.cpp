@@ -1,0 +1,52 @@
+#include "command.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "object_modelling/keyframes/session.h"
+
+namespace object_modelling::cli
+{
+void addRecordOptions(CLI::App& command, RecordArguments* arguments)
+{
+  command
+      .add_option_function<std::string>(
+          "--reference", [arguments](const std::string& value) { arguments->object_reference = value == "object"; },
+          "What stands still: 'scene' (camera moves round the object; default) or 'object' (turntable, or the object "
+          "is "
+          "moved in front of the camera)")
+      ->check(CLI::IsMember({ "scene", "object" }));
+  command
+      .add_option("--seed", arguments->seed,
+                  "Seed of all random choices: the same recording and seed give the same result")
+      ->capture_default_str();
+}
+
+pipeline::RecordOptions recordOptions(const RecordArguments& arguments)
+{
+  pipeline::RecordOptions options;
+  options.tracker.reference = arguments.object_reference ? tracking::Reference::OBJECT : tracking::Reference::SCENE;
+  options.tracker.seed = arguments.seed;
+  return options;
+}
+
+refinement::BundleAdjustmentOptions refinementOptions(const RecordArguments& arguments)
+{
+  refinement::BundleAdjustmentOptions options;
+  options.seed = arguments.seed;
+  return options;
+}
+
+std::string sessionIdFrom(const std::string& recording)
+{
+  std::string path = recording;
+  while (path.size() > 1 && path.back() == '/')
+    path.pop_back();
+  std::string id = path.substr(path.find_last_of('/') + 1);
+  std::replace_if(
+      id.begin(), id.end(), [](unsigned char c) { return !std::isalnum(c) && c != '_' && c != '-' && c != '.'; }, '_');
+  id.resize(std::min<std::size_t>(id.size(), 60));
+  return keyframes::isValidId(id) ? id : "recording";
+}
+
+}  // namespace object_modelling::cli

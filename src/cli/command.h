@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "object_modelling/base/job_control.h"
+#include "object_modelling/pipeline/record_session.h"
+#include "object_modelling/refinement/bundle_adjustment.h"
+
+namespace object_modelling::cli
+{
+/// What a command has to say: `text` for people, `json` for programs; one of them is printed on stdout.
+struct CommandOutput
+{
+  std::string text;
+  nlohmann::json json;
+};
+
+/// A parsed subcommand, ready to run. Throws base::Error.
+using Command = std::function<CommandOutput(base::JobControl& control)>;
+
+/// Each adds one subcommand to `app`, and sets `*chosen` when that one has been parsed.
+void addTrackCommand(CLI::App& app, Command* chosen);
+void addModelCommand(CLI::App& app, Command* chosen);
+void addInfoCommand(CLI::App& app, Command* chosen);
+
+/// Options that track and model share.
+struct RecordArguments
+{
+  bool object_reference = false;
+  std::uint64_t seed = 1;
+};
+void addRecordOptions(CLI::App& command, RecordArguments* arguments);
+pipeline::RecordOptions recordOptions(const RecordArguments& arguments);
+refinement::BundleAdjustmentOptions refinementOptions(const RecordArguments& arguments);
+
+/// A session id from the name of a recording: its last path component with everything unusual replaced by '_'.
+std::string sessionIdFrom(const std::string& recording);
+
+}  // namespace object_modelling::cli

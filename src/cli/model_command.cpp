@@ -1,0 +1,132 @@
+#include <chrono>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include "command.h"
+#include "object_modelling/pipeline/build_object.h"
+#include "object_modelling/pipeline/session_jobs.h"
+#include "object_modelling/ros_bridge/open_recording.h"
+#include "report_text.h"
+#include "temporary_store.h"
+
+namespace object_modelling::cli
+{
+namespace
+{
+struct Arguments
+{
+  std::string object_id;
+  std::vector<std::string> recordings;
+  std::string database;
+  std::string store;
+  std::string name;
+  std::vector<double> seed_point_m;
+  double resolution_mm = 2;
+  bool replace = false;
+  RecordArguments record;
+};
+
+void throwUnlessOk(const std::string& stage, const base::Status& status)
+{
+  if (!status.ok())
+    throw base::Error(status.code, stage + ": " + status.message);
+}
+
+/// One recording through tracking, refinement and segmentation; text and JSON are appended to the output.
+std::string processRecording(const std::string& recording, const Arguments& arguments, keyframes::SessionStore& store,
+                             base::JobControl& control, CommandOutput* output)
+{
+  const std::unique_ptr<source::FrameSource> source = ros_bridge::openRecording(recording);
+  keyframes::Session session;
+  session.id = sessionIdFrom(recording);
+  session.object_id = arguments.object_id;
+  const pipeline::RecordReport recorded =
+      pipeline::recordSession(*source, session, &store, recordOptions(arguments.record), control);
+  output->text += "session   " + session.id + "\n" + toText(recorded);
+  nlohmann::json json = toJson(recorded);
+
+  const refinement::BundleAdjustmentResult refined =
+      pipeline::refineSession(store, session.id, refinementOptions(arguments.record), control);
+  output->text += toText(refined);
+  json["refinement"] = toJson(refined);
+  throwUnlessOk("refinement of session '" + session.id + "'", refined.status);
+
+  std::optional<Eigen::Vector3d> seed_point_session;
+  if (!arguments.seed_point_m.empty())
+    seed_point_session = Eigen::Vector3d(arguments.seed_point_m.data());
+  const pipeline::SegmentReport segmented =
+      pipeline::segmentSession(store, session.id, seed_point_session, {}, control);
+  output->text += toText(segmented);
+  json["segmentation"] = toJson(segmented);
+  throwUnlessOk("segmentation of session '" + session.id + "'", segmented.status);
+  output->json["sessions"].push_back(std::move(json));
+  return session.id;
+}
+
+CommandOutput run(const Arguments& arguments, base::JobControl& control)
+{
+  // Opened first: a database that cannot be written must not cost a recording's processing.
+  database::ObjectDatabase database(arguments.database, true);
+  std::unique_ptr<TemporaryStore> temporary;
+  std::unique_ptr<keyframes::SessionStore> opened;
+  if (arguments.store.empty())
+    temporary = std::make_unique<TemporaryStore>();
+  else
+    opened = keyframes::openSqlStore(arguments.store);
+  keyframes::SessionStore& store = temporary ? temporary->get() : *opened;
+
+  CommandOutput output;
+  output.json["object_id"] = arguments.object_id;
+  output.json["sessions"] = nlohmann::json::array();
+  std::vector<std::string> session_ids;
+  for (const std::string& recording : arguments.recordings)
+    session_ids.push_back(processRecording(recording, arguments, store, control, &output));
+
+  const alignment::AlignmentResult aligned = pipeline::alignSessions(store, session_ids, control);
+  throwUnlessOk("alignment", aligned.status);
+
+  pipeline::BuildOptions options;
+  options.replace = arguments.replace;
+  options.fusion.resolution_m = arguments.resolution_mm / 1000;
+  options.surface.resolution_m = arguments.resolution_mm / 1000;
+  const pipeline::BuildReport built =
+      pipeline::buildObject(store, database, arguments.object_id, arguments.name, aligned.placements, options, control);
+  output.text += toText(built);
+  output.json["build"] = toJson(built);
+  throwUnlessOk("building object '" + arguments.object_id + "'", built.status);
+  return output;
+}
+}  // namespace
+
+void addModelCommand(CLI::App& app, Command* chosen)
+{
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("model", "Object model from recordings, one session each");
+  command->add_option("object_id", arguments->object_id, "Name of the object in the database (letters, digits, _ . -)")
+      ->required();
+  command->add_option("recordings", arguments->recordings, "TUM-style folders or ROS bags")->required();
+  command->add_option("--database", arguments->database, "Folder of the object database; made if missing")->required();
+  command->add_option("--store", arguments->store,
+                      "Keep the sessions in this keyframe store (SQLite file); without it they are not kept");
+  command->add_option("--name", arguments->name, "Name for people");
+  command
+      ->add_option(
+          "--seed-point", arguments->seed_point_m,
+          "x y z (m) of a point on the object, in the optical frame of the first keyframe; without it the object "
+          "is chosen automatically")
+      ->expected(3);
+  command->add_option("--resolution", arguments->resolution_mm, "Spacing of model points in mm")
+      ->check(CLI::Range(0.2, 50.0))
+      ->capture_default_str();
+  command->add_flag("--replace", arguments->replace,
+                    "Replace an object of this name that was built from other sessions; its frame changes");
+  addRecordOptions(*command, &arguments->record);
+  command->footer("Example: object_modelling model mustard recordings/mustard_up --database ~/objects");
+  command->callback([arguments, chosen]
+                    { *chosen = [arguments](base::JobControl& control) { return run(*arguments, control); }; });
+}
+
+}  // namespace object_modelling::cli

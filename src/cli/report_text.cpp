@@ -1,0 +1,171 @@
+#include "report_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace object_modelling::cli
+{
+namespace
+{
+constexpr double DEG_PER_RAD = 180 / M_PI;
+
+std::ostringstream fixedText(int digits)
+{
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(digits);
+  return out;
+}
+
+/// Root mean square over all observations of the keyframes, by the member that holds a keyframe's own.
+double rmseOf(const std::vector<refinement::KeyframeResidual>& residuals, double refinement::KeyframeResidual::*rmse)
+{
+  double sum = 0;
+  double count = 0;
+  for (const refinement::KeyframeResidual& residual : residuals)
+  {
+    sum += residual.observation_count * residual.*rmse * residual.*rmse;
+    count += residual.observation_count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+}  // namespace
+
+double quantile(std::vector<double> values, double share)
+{
+  if (values.empty())
+    return 0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+nlohmann::json toJson(const base::Status& status)
+{
+  return { { "code", static_cast<int>(status.code) }, { "message", status.message } };
+}
+
+nlohmann::json toJson(const pipeline::RecordReport& report)
+{
+  return { { "session_id", report.session_id },
+           { "frame_count", report.frame_count },
+           { "tracked_count", report.tracked_count },
+           { "tracked_ratio", report.trackedRatio() },
+           { "unusable_count", report.unusable_count },
+           { "lost_count", report.lost_count },
+           { "relocalised_count", report.relocalised_count },
+           { "keyframe_count", report.keyframe_count },
+           { "track_median_ms", quantile(report.track_ms, 0.5) },
+           { "track_p95_ms", quantile(report.track_ms, 0.95) },
+           { "first_problem", report.first_problem } };
+}
+
+nlohmann::json toJson(const refinement::BundleAdjustmentResult& result)
+{
+  nlohmann::json keyframes = nlohmann::json::array();
+  for (const refinement::KeyframeResidual& residual : result.residuals)
+    keyframes.push_back({ { "keyframe_id", residual.keyframe_id },
+                          { "observation_count", residual.observation_count },
+                          { "reprojection_rmse_before_px", residual.reprojection_rmse_before_px },
+                          { "reprojection_rmse_after_px", residual.reprojection_rmse_after_px },
+                          { "depth_rmse_before_m", residual.depth_rmse_before_m },
+                          { "depth_rmse_after_m", residual.depth_rmse_after_m } });
+  nlohmann::json links = nlohmann::json::array();
+  for (const refinement::KeyframeLink& link : result.links)
+    links.push_back({ { "keyframe_a", link.keyframe_a },
+                      { "keyframe_b", link.keyframe_b },
+                      { "inlier_count", link.inlier_count },
+                      { "translation_error_before_mm", link.translation_error_before_m * 1000 },
+                      { "translation_error_after_mm", link.translation_error_after_m * 1000 },
+                      { "rotation_error_before_deg", link.rotation_error_before_rad * DEG_PER_RAD },
+                      { "rotation_error_after_deg", link.rotation_error_after_rad * DEG_PER_RAD } });
+  return { { "status", toJson(result.status) },
+           { "iterations", result.iterations },
+           { "initial_cost", result.initial_cost },
+           { "final_cost", result.final_cost },
+           { "left_out", result.left_out },
+           { "keyframes", keyframes },
+           { "links", links } };
+}
+
+nlohmann::json toJson(const pipeline::SegmentReport& report)
+{
+  return { { "status", toJson(report.status) },
+           { "keyframe_count", report.keyframe_count },
+           { "masked_count", report.masked_count },
+           { "support_plane_found", report.support_plane_found } };
+}
+
+nlohmann::json toJson(const pipeline::BuildReport& report)
+{
+  return { { "status", toJson(report.status) },
+           { "object_folder", report.object_folder },
+           { "preview_path", report.preview_path },
+           { "size_m", { report.size_m.x(), report.size_m.y(), report.size_m.z() } },
+           { "diameter_m", report.diameter_m },
+           { "point_count", report.point_count },
+           { "vertex_count", report.vertex_count },
+           { "triangle_count", report.triangle_count },
+           { "stage_s", report.stage_s } };
+}
+
+std::string toText(const pipeline::RecordReport& report)
+{
+  std::ostringstream out = fixedText(1);
+  out << "tracked   " << report.tracked_count << " of " << report.frame_count << " frames ("
+      << 100 * report.trackedRatio() << " %), " << report.keyframe_count << " keyframes, lost " << report.lost_count
+      << " times, relocalised " << report.relocalised_count << "; " << quantile(report.track_ms, 0.5)
+      << " ms per frame median, " << quantile(report.track_ms, 0.95) << " ms p95\n";
+  if (!report.first_problem.empty())
+    out << "          first problem: " << report.first_problem << "\n";
+  return out.str();
+}
+
+std::string toText(const refinement::BundleAdjustmentResult& result)
+{
+  using Residual = refinement::KeyframeResidual;
+  std::ostringstream out = fixedText(2);
+  out << "refined   " << result.residuals.size() << " keyframes, " << result.links.size() << " new links; reprojection "
+      << rmseOf(result.residuals, &Residual::reprojection_rmse_before_px) << " -> "
+      << rmseOf(result.residuals, &Residual::reprojection_rmse_after_px) << " px, depth "
+      << 1000 * rmseOf(result.residuals, &Residual::depth_rmse_before_m) << " -> "
+      << 1000 * rmseOf(result.residuals, &Residual::depth_rmse_after_m) << " mm RMSE";
+  if (!result.left_out.empty())
+    out << "; " << result.left_out.size() << " left out (nothing links them)";
+  out << "\n";
+  if (!result.status.ok())
+    out << "          " << result.status.message << "\n";
+  for (const refinement::KeyframeLink& link : result.links)
+    if (link.keyframe_b - link.keyframe_a == static_cast<int>(result.residuals.size()) - 1)
+      out << "closure   keyframe " << link.keyframe_b << " against " << link.keyframe_a << ": "
+          << 1000 * link.translation_error_before_m << " mm, " << DEG_PER_RAD * link.rotation_error_before_rad
+          << " deg before -> " << 1000 * link.translation_error_after_m << " mm, "
+          << DEG_PER_RAD * link.rotation_error_after_rad << " deg after\n";
+  return out.str();
+}
+
+std::string toText(const pipeline::SegmentReport& report)
+{
+  std::ostringstream out;
+  if (!report.status.ok())
+    return "segmented " + report.status.message + "\n";
+  out << "segmented " << report.masked_count << " of " << report.keyframe_count
+      << " keyframes see the object; support plane " << (report.support_plane_found ? "found" : "not found") << "\n";
+  return out.str();
+}
+
+std::string toText(const pipeline::BuildReport& report)
+{
+  if (!report.status.ok())
+    return "built     " + report.status.message + "\n";
+  std::ostringstream out = fixedText(1);
+  out << "built     " << 1000 * report.size_m.x() << " x " << 1000 * report.size_m.y() << " x "
+      << 1000 * report.size_m.z() << " mm, diameter " << 1000 * report.diameter_m << " mm; " << report.point_count
+      << " points, " << report.triangle_count << " triangles\n"
+      << "          " << report.object_folder << "\n"
+      << "          " << report.preview_path << "\n";
+  return out.str();
+}
+
+}  // namespace object_modelling::cli

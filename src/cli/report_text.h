@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "object_modelling/pipeline/build_object.h"
+#include "object_modelling/pipeline/record_session.h"
+#include "object_modelling/pipeline/session_jobs.h"
+
+// Reports of the pipeline as JSON (units in the keys) and as text.
+namespace object_modelling::cli
+{
+nlohmann::json toJson(const base::Status& status);
+nlohmann::json toJson(const pipeline::RecordReport& report);
+nlohmann::json toJson(const refinement::BundleAdjustmentResult& result);
+nlohmann::json toJson(const pipeline::SegmentReport& report);
+nlohmann::json toJson(const pipeline::BuildReport& report);
+
+std::string toText(const pipeline::RecordReport& report);
+std::string toText(const refinement::BundleAdjustmentResult& result);
+std::string toText(const pipeline::SegmentReport& report);
+std::string toText(const pipeline::BuildReport& report);
+
+/// Value below which `share` in [0, 1] of the values lie; 0 for none.
+double quantile(std::vector<double> values, double share);
+
+}  // namespace object_modelling::cli

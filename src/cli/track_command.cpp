@@ -1,0 +1,75 @@
+#include <memory>
+
+#include "command.h"
+#include "object_modelling/pipeline/record_session.h"
+#include "object_modelling/pipeline/session_jobs.h"
+#include "object_modelling/refinement/trajectory_correction.h"
+#include "object_modelling/ros_bridge/open_recording.h"
+#include "report_text.h"
+#include "temporary_store.h"
+
+namespace object_modelling::cli
+{
+namespace
+{
+struct Arguments
+{
+  std::string recording;
+  std::string trajectory;
+  std::string refined_trajectory;
+  RecordArguments record;
+};
+
+CommandOutput run(const Arguments& arguments, base::JobControl& control)
+{
+  const std::unique_ptr<source::FrameSource> source = ros_bridge::openRecording(arguments.recording);
+  pipeline::RecordOptions options = recordOptions(arguments.record);
+  const bool refine = !arguments.refined_trajectory.empty();
+  std::unique_ptr<TemporaryStore> store;
+  if (refine)
+    store = std::make_unique<TemporaryStore>();
+  keyframes::Session session;
+  session.id = sessionIdFrom(arguments.recording);
+
+  CommandOutput output;
+  const pipeline::RecordReport report =
+      pipeline::recordSession(*source, session, refine ? &store->get() : nullptr, options, control);
+  if (!arguments.trajectory.empty())
+    source::writeTrajectory(arguments.trajectory, report.trajectory);
+  output.text = toText(report);
+  output.json = toJson(report);
+  if (!refine)
+    return output;
+
+  const std::vector<rgbd::Keyframe> before = keyframes::loadKeyframes(store->get(), session.id);
+  const refinement::BundleAdjustmentResult refined =
+      pipeline::refineSession(store->get(), session.id, refinementOptions(arguments.record), control);
+  output.text += toText(refined);
+  output.json["refinement"] = toJson(refined);
+  if (!refined.status.ok())
+    throw base::Error(refined.status.code, refined.status.message);
+  std::vector<source::StampedPose> corrected = correctedTrajectory(report.trajectory, before, refined);
+  source::writeTrajectory(arguments.refined_trajectory, corrected);
+  return output;
+}
+}  // namespace
+
+void addTrackCommand(CLI::App& app, Command* chosen)
+{
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("track", "Camera trajectory of a recording");
+  command
+      ->add_option("recording", arguments->recording, "TUM-style folder (rgb.txt, depth.txt, camera.yaml) or ROS bag")
+      ->required();
+  command->add_option("--trajectory", arguments->trajectory,
+                      "Write session_from_camera of every tracked frame, TUM format, as it was known live");
+  command->add_option("--refined-trajectory", arguments->refined_trajectory,
+                      "Refine the keyframes by bundle adjustment and write the trajectory that follows from them");
+  addRecordOptions(*command, &arguments->record);
+  command->footer(
+      "Example: object_modelling track my_recording --trajectory live.txt --refined-trajectory refined.txt");
+  command->callback([arguments, chosen]
+                    { *chosen = [arguments](base::JobControl& control) { return run(*arguments, control); }; });
+}
+
+}  // namespace object_modelling::cli

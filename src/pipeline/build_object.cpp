@@ -1,0 +1,231 @@
+#include "object_modelling/pipeline/build_object.h"
+
+#include <chrono>
+#include <optional>
+
+#include "model_frame.h"
+#include "object_modelling/base/options.h"
+#include "object_modelling/surface/mesh_renderer.h"
+
+namespace object_modelling::pipeline
+{
+namespace
+{
+class StageTimer
+{
+public:
+  explicit StageTimer(std::map<std::string, double>* stage_s) : stage_s_(stage_s) {}
+  void finish(const std::string& stage)
+  {
+    const auto now = std::chrono::steady_clock::now();
+    (*stage_s_)[stage] = std::chrono::duration<double>(now - start_).count();
+    start_ = now;
+  }
+
+private:
+  std::map<std::string, double>* stage_s_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// The sessions of one build, everything in the reference frame.
+struct Views
+{
+  std::vector<keyframes::Session> sessions;
+  std::vector<rgbd::Keyframe> keyframes;  // those that see the object; T_session_camera holds T_reference_camera
+  std::optional<geometry::Plane> support_plane_reference;
+};
+
+base::Status loadViews(keyframes::SessionStore& store, const std::vector<alignment::SessionPlacement>& placements,
+                       base::JobControl& control, Views* views)
+{
+  for (const alignment::SessionPlacement& placement : placements)
+  {
+    views->sessions.push_back(store.session(placement.session_id));
+    const std::vector<int> ids = store.keyframeIds(placement.session_id);
+    if (ids.empty())
+      return { base::StatusCode::FAILED_PRECONDITION,
+               "session '" + placement.session_id + "' has no keyframes: record it before building" };
+    std::size_t masked = 0;
+    for (const int id : ids)
+    {
+      control.report("load", masked, ids.size());
+      rgbd::Keyframe keyframe = store.keyframe(placement.session_id, id);
+      if (keyframe.frame.object_mask.empty())
+        continue;
+      keyframe.id = static_cast<int>(views->keyframes.size());
+      keyframe.T_session_camera = placement.T_reference_session * keyframe.T_session_camera;
+      views->keyframes.push_back(std::move(keyframe));
+      ++masked;
+    }
+    if (masked == 0)
+      return { base::StatusCode::FAILED_PRECONDITION,
+               "none of the " + std::to_string(ids.size()) + " keyframes of session '" + placement.session_id +
+                   "' has an object mask: select the object (segmenter) before building" };
+    const std::optional<geometry::Plane>& plane = views->sessions.back().support_plane_session;
+    if (!views->support_plane_reference && plane)
+      views->support_plane_reference = geometry::transformed(placement.T_reference_session, *plane);
+  }
+  return {};
+}
+
+std::optional<database::ObjectEntry> existingEntry(const database::ObjectDatabase& database, const std::string& id)
+{
+  for (database::ObjectEntry& entry : database.list())
+    if (entry.id == id)
+      return std::move(entry);
+  return std::nullopt;
+}
+
+/// T_model_reference of the object as it stands in the database, through a session that both builds share.
+std::optional<Eigen::Isometry3d> inheritedFrame(const database::ObjectEntry& entry,
+                                                const std::vector<alignment::SessionPlacement>& placements)
+{
+  for (const database::ModelSession& known : entry.sessions)
+    for (const alignment::SessionPlacement& placement : placements)
+      if (known.id == placement.session_id)
+        return known.T_model_session * placement.T_reference_session.inverse();
+  return std::nullopt;
+}
+
+void transform(const Eigen::Isometry3d& T_target_source, fusion::FusedCloud* cloud)
+{
+  const Eigen::Isometry3f T = T_target_source.cast<float>();
+  for (Eigen::Vector3f& point : cloud->points)
+    point = T * point;
+  for (Eigen::Vector3f& normal : cloud->normals)
+    normal = T.linear() * normal;
+}
+
+double meanSigma_m(const fusion::FusedCloud& cloud)
+{
+  double sum = 0;
+  for (const float sigma_m : cloud.sigmas_m)
+    sum += sigma_m;
+  return cloud.sigmas_m.empty() ? 0 : sum / static_cast<double>(cloud.sigmas_m.size());
+}
+
+/// Everything of the model but its geometry.
+void describe(const Views& views, const std::vector<alignment::SessionPlacement>& placements,
+              const Eigen::Isometry3d& T_model_reference, const geometry::OrientedBox& box_reference,
+              database::ObjectModel* model)
+{
+  model->box_model = box_reference;
+  model->box_model.T_frame_box = T_model_reference * box_reference.T_frame_box;
+  if (views.support_plane_reference)
+  {
+    // The resting pose of the recording: model frame lifted to stand on z = 0.
+    const geometry::Plane plane_model = geometry::transformed(T_model_reference, *views.support_plane_reference);
+    Eigen::Isometry3d T_support_model = Eigen::Isometry3d::Identity();
+    T_support_model.linear() =
+        Eigen::Quaterniond::FromTwoVectors(plane_model.normal, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    T_support_model.translation().z() = plane_model.offset_m;
+    model->T_support_model.push_back(T_support_model);
+  }
+  for (std::size_t i = 0; i < placements.size(); ++i)
+    model->sessions.push_back({ placements[i].session_id, T_model_reference * placements[i].T_reference_session,
+                                views.sessions[i].keyframe_count });
+}
+}  // namespace
+
+std::vector<std::string> BuildOptions::violations() const
+{
+  base::OptionsCheck check("build_object");
+  check.include(fusion.violations());
+  check.include(surface.violations());
+  return check.violations();
+}
+
+BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase& database,
+                        const std::string& object_id, const std::string& name,
+                        const std::vector<alignment::SessionPlacement>& placements, const BuildOptions& options,
+                        base::JobControl& control)
+{
+  base::checked(options);
+  BuildReport report;
+  StageTimer timer(&report.stage_s);
+  if (!keyframes::isValidId(object_id))
+  {
+    report.status = { base::StatusCode::INVALID_ARGUMENT,
+                      "object id '" + object_id +
+                          "': must be 1 to 64 of A-Z a-z 0-9 _ . - and start with a letter or digit" };
+    return report;
+  }
+  if (placements.empty())
+  {
+    report.status = { base::StatusCode::FAILED_PRECONDITION,
+                      "object '" + object_id + "' has no session to build from: record one first" };
+    return report;
+  }
+  Views views;
+  report.status = loadViews(store, placements, control, &views);
+  if (!report.status.ok())
+    return report;
+
+  std::optional<Eigen::Isometry3d> T_model_reference;
+  if (const std::optional<database::ObjectEntry> existing = existingEntry(database, object_id))
+  {
+    T_model_reference = inheritedFrame(*existing, placements);
+    if (!T_model_reference && !options.replace)
+    {
+      report.status = { base::StatusCode::FAILED_PRECONDITION,
+                        "object '" + object_id +
+                            "' exists and was built from other sessions, so its frame (and grasps annotated in it) "
+                            "would change: choose another object id, or build with replace" };
+      return report;
+    }
+  }
+  timer.finish("load");
+
+  fusion::CloudFusionResult fused = fusion::fuse(views.keyframes, options.fusion, control);
+  report.status = fused.status;
+  if (!report.status.ok())
+    return report;
+  const geometry::OrientedBox box_reference = objectBox(fused.cloud.points, views.support_plane_reference);
+  if (!T_model_reference)
+    T_model_reference = box_reference.T_frame_box.inverse();
+  transform(*T_model_reference, &fused.cloud);
+  timer.finish("fuse");
+
+  surface::SurfaceResult surface = surface::reconstructSurface(fused.cloud, options.surface, control);
+  report.status = surface.status;
+  if (!report.status.ok())
+    return report;
+  timer.finish("surface");
+
+  database::ObjectModel model;
+  model.id = object_id;
+  model.name = name.empty() ? object_id : name;
+  describe(views, placements, *T_model_reference, box_reference, &model);
+  model.diameter_m = diameter_m(fused.cloud.points);
+  model.quality = { { "view_count", static_cast<double>(views.keyframes.size()) },
+                    { "point_count", static_cast<double>(fused.cloud.size()) },
+                    { "mean_sigma_m", meanSigma_m(fused.cloud) },
+                    { "inconsistent_observation_ratio",
+                      static_cast<double>(fused.observations_inconsistent) /
+                          static_cast<double>(
+                              std::max<std::size_t>(1, fused.observations_used + fused.observations_inconsistent)) } };
+  model.cloud = std::move(fused.cloud);
+  model.mesh = std::move(surface.mesh);
+  model.preview_bgr = surface::renderFourSides(model.mesh);
+  model.views = std::move(views.keyframes);
+  for (rgbd::Keyframe& view : model.views)
+    view.T_session_camera = *T_model_reference * view.T_session_camera;
+
+  report.object_folder = database.write(model, control);
+  report.preview_path = report.object_folder + "/preview.png";
+  report.size_m = model.box_model.size_m;
+  report.diameter_m = model.diameter_m;
+  report.point_count = model.cloud.size();
+  report.vertex_count = model.mesh.vertices.size();
+  report.triangle_count = model.mesh.triangles.size();
+  for (std::size_t i = 0; i < views.sessions.size(); ++i)
+  {
+    views.sessions[i].object_id = object_id;
+    views.sessions[i].T_model_session = model.sessions[i].T_model_session;
+    store.updateSession(views.sessions[i]);
+  }
+  timer.finish("write");
+  return report;
+}
+
+}  // namespace object_modelling::pipeline
