@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
+
 #include <opencv2/core.hpp>
 
 #include "object_modelling/rgbd/frame.h"
@@ -21,10 +24,12 @@ struct DepthEdgeOptions
   std::vector<std::string> violations() const;
 };
 
-/// CV_8UC1 with a combination of DepthEdge per pixel (4-neighbourhood); 0 also where depth is missing.
+/// CV_8UC1 with a combination of DepthEdge per pixel (4-neighbourhood); 0 also where depth is missing. The rim of the
+/// image is no edge.
 cv::Mat findDepthEdges(const Frame& frame, const DepthEdgeOptions& options = {});
 
-/// CV_32FC1: distance in px of each pixel to the nearest edge of the given kinds.
+/// CV_32FC1: distance in px of each pixel to the nearest edge of the given kinds; width + height if there is
+/// no such edge.
 cv::Mat distanceToEdges_px(const cv::Mat& edges, int kinds = OCCLUDING | OCCLUDED | MISSING_DATA);
 
 }  // namespace object_modelling::rgbd

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <cstddef>
+#include <string>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -42,9 +43,12 @@ public:
   base::Result<Frame> build(const RawFrame& raw);
 
 private:
+  void updateMaps(const geometry::PinholeCamera& camera);
+
   FrameBuilderOptions options_;
-  geometry::PinholeCamera mapped_camera_;
-  cv::Mat map_x_, map_y_;
+  geometry::PinholeCamera mapped_camera_;  ///< camera of the maps; none yet if its width is 0
+  cv::Mat color_map_, color_map_fraction_;
+  cv::Mat nearest_map_;
 };
 
 }  // namespace object_modelling::rgbd

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <opencv2/core.hpp>
 
 #include "object_modelling/rgbd/frame.h"
@@ -15,7 +18,8 @@ struct NormalOptions
 };
 
 /// Unit normals in the optical frame facing the camera, CV_32FC3, NaN where depth is missing or too few neighbours
-/// belong to the same surface. Organised least-squares plane per window, linear time.
+/// belong to the same surface. Least-squares plane per window, fitted to inverse depth: there a plane is a linear function
+/// of the pixel, and the noise of a disparity-measuring sensor has one sigma everywhere.
 cv::Mat computeNormals(const Frame& frame, const NormalOptions& options = {});
 
 }  // namespace object_modelling::rgbd

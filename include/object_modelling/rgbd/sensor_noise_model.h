@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <opencv2/core.hpp>
 
 #include "object_modelling/rgbd/frame.h"
@@ -7,7 +10,8 @@
 namespace object_modelling::rgbd
 {
 /// Kinect-type noise after Nguyen, Izadi, Lovell: Modeling Kinect Sensor Noise for Improved 3D Reconstruction and
-/// Tracking, 3DIMPVT 2012. theta is the angle between surface normal and viewing ray, in [0, pi/2).
+/// Tracking, 3DIMPVT 2012. theta is the angle between surface normal and viewing ray, in [0, pi/2); from pi/2 on the
+/// surface cannot be seen and the sigmas are infinite.
 double axialSigma_m(double z_m, double theta_rad);
 double lateralSigma_px(double theta_rad);
 /// lateralSigma_px * z / f: the factor z / f once (V4R applied z twice, right at 1 m only).
@@ -26,7 +30,8 @@ struct ObservationWeightOptions
 /// d in m: distance on the surface to the nearest depth edge, theta measured against the viewing ray.
 double observationWeight(double theta_rad, double edge_distance_m, const ObservationWeightOptions& options = {});
 
-/// Weight per pixel, CV_32FC1, 0 where depth or normal is missing. `normals` as from computeNormals.
+/// Weight per pixel, CV_32FC1, 0 where depth or normal is missing. `normals` as from computeNormals; the distance in
+/// pixels becomes metres by z / f.
 cv::Mat observationWeights(const Frame& frame, const cv::Mat& normals, const cv::Mat& edge_distance_px,
                            const ObservationWeightOptions& options = {});
 

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace object_modelling::geometry
+{
+struct ConvexHull
+{
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<Eigen::Vector3d> normals;  ///< outward, one per face (coplanar facets merged)
+};
+
+/// Hull of the points (Qhull). Flat, collinear or fewer than 4 points have no volume: the normal of their plane (both
+/// sides), or the x, y and z axes, and all points as vertices.
+ConvexHull convexHull(const std::vector<Eigen::Vector3f>& points);
+
+}  // namespace object_modelling::geometry

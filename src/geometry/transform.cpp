@@ -1,0 +1,70 @@
+#include "object_modelling/geometry/transform.h"
+
+#include <cmath>
+
+#include <Eigen/SVD>
+
+namespace object_modelling::geometry
+{
+namespace
+{
+bool collinear(const Eigen::Matrix3Xd& points)
+{
+  const Eigen::Matrix3Xd centred = points.colwise() - points.rowwise().mean();
+  const Eigen::Matrix3d moments = centred * centred.transpose();
+  const Eigen::Vector3d spread = moments.jacobiSvd().singularValues();
+  return !(spread[1] > 1e-12 * spread[0]);
+}
+
+}  // namespace
+
+Eigen::Isometry3d isometryFromVector(const Vector6d& translation_m_rotation_rad)
+{
+  const Eigen::Vector3d rotation = translation_m_rotation_rad.tail<3>();
+  const double angle = rotation.norm();
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translation() = translation_m_rotation_rad.head<3>();
+  // sin(a/2)/a tends to 1/2: no axis to divide by near zero.
+  const double scale = angle > 1e-9 ? std::sin(0.5 * angle) / angle : 0.5;
+  Eigen::Quaterniond q(std::cos(0.5 * angle), scale * rotation.x(), scale * rotation.y(), scale * rotation.z());
+  T.linear() = q.normalized().toRotationMatrix();
+  return T;
+}
+
+Vector6d vectorFromIsometry(const Eigen::Isometry3d& T)
+{
+  const Eigen::AngleAxisd rotation(Eigen::Quaterniond(T.linear()).normalized());
+  Vector6d vector;
+  vector << T.translation(), rotation.angle() * rotation.axis();
+  return vector;
+}
+
+Eigen::Isometry3d isometryFrom(const Eigen::Quaterniond& R, const Eigen::Vector3d& t)
+{
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = R.normalized().toRotationMatrix();
+  T.translation() = t;
+  return T;
+}
+
+double rotationAngle_rad(const Eigen::Isometry3d& T)
+{
+  const Eigen::Quaterniond q(T.linear());
+  return 2.0 * std::atan2(q.vec().norm(), std::abs(q.w()));
+}
+
+Eigen::Isometry3d normalised(const Eigen::Isometry3d& T)
+{
+  return isometryFrom(Eigen::Quaterniond(T.linear()), T.translation());
+}
+
+bool rigidTransformFromPoints(const Eigen::Matrix3Xd& p_a, const Eigen::Matrix3Xd& p_b, Eigen::Isometry3d* T_a_b)
+{
+  if (p_a.cols() != p_b.cols() || p_a.cols() < 3 || !p_a.allFinite() || !p_b.allFinite() || collinear(p_a) ||
+      collinear(p_b))
+    return false;
+  T_a_b->matrix() = Eigen::umeyama(p_b, p_a, false);
+  return true;
+}
+
+}  // namespace object_modelling::geometry

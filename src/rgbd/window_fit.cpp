@@ -1,0 +1,194 @@
+#include "window_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+namespace object_modelling::rgbd
+{
+namespace
+{
+/// Normal of the plane w = w_centre + a (u - u_centre) + b (v - v_centre), towards the camera.
+inline cv::Vec3f normalOf(const geometry::PinholeCamera& camera, int u, int v, float a, float b, float w_centre)
+{
+  const float x = a * static_cast<float>(camera.fx);
+  const float y = b * static_cast<float>(camera.fy);
+  const float z = w_centre + a * static_cast<float>(camera.cx - u) + b * static_cast<float>(camera.cy - v);
+  const float scale = -1.0f / std::sqrt(x * x + y * y + z * z);
+  return { x * scale, y * scale, z * scale };
+}
+
+}  // namespace
+
+PaddedDepth::PaddedDepth(const cv::Mat& depth_m, int radius_px)
+  : radius_(radius_px)
+  , depth_(cv::Mat::zeros(depth_m.rows + 2 * radius_px, depth_m.cols + 2 * radius_px, CV_32FC1))
+  , inverse_(cv::Mat::zeros(depth_.size(), CV_32FC1))
+{
+  for (int v = 0; v < depth_m.rows; ++v)
+  {
+    const auto* in = depth_m.ptr<float>(v);
+    float* depth = depth_.ptr<float>(v + radius_) + radius_;
+    float* inverse = inverse_.ptr<float>(v + radius_) + radius_;
+    for (int u = 0; u < depth_m.cols; ++u)
+    {
+      depth[u] = in[u] > 0 ? in[u] : 0.0f;
+      inverse[u] = in[u] > 0 ? 1.0f / in[u] : 0.0f;
+    }
+  }
+}
+
+cv::Mat wholeWindows(const PaddedDepth& padded, float step_ratio)
+{
+  const int window = 2 * padded.radius() + 1;
+  const cv::Mat kernel = cv::Mat::ones(window, window, CV_8UC1);
+  cv::Mat nearest;
+  cv::Mat farthest;
+  cv::erode(padded.depth(), nearest, kernel);
+  cv::dilate(padded.depth(), farthest, kernel);
+  cv::Mat whole(padded.size(), CV_8UC1);
+  for (int v = 0; v < whole.rows; ++v)
+  {
+    const float* depth = padded.depthRow(v);
+    const float* low = nearest.ptr<float>(v + padded.radius()) + padded.radius();
+    const float* high = farthest.ptr<float>(v + padded.radius()) + padded.radius();
+    auto* out = whole.ptr<std::uint8_t>(v);
+    for (int u = 0; u < whole.cols; ++u)
+    {
+      const float gate = step_ratio * depth[u];
+      out[u] = (low[u] > 0) & (depth[u] - low[u] <= gate) & (high[u] - depth[u] <= gate) ? 255 : 0;
+    }
+  }
+  return whole;
+}
+
+WholeWindowFit::WholeWindowFit(const PaddedDepth& padded, const geometry::PinholeCamera& camera)
+  : padded_(padded)
+  , camera_(camera)
+  , radius_(padded.radius())
+  , window_(2 * radius_ + 1)
+  , width_(padded.size().width)
+  , next_row_(-radius_)
+  , sum_w_(static_cast<std::size_t>(window_ * width_))
+  , sum_u_w_(sum_w_.size())
+  , total_w_(static_cast<std::size_t>(width_))
+  , total_u_w_(total_w_.size())
+  , total_v_w_(total_w_.size())
+{
+}
+
+void WholeWindowFit::horizontalSums(int v)
+{
+  const float* inverse = padded_.inverseRow(v);
+  float* sum_w = sums(&sum_w_, v);
+  float* sum_u_w = sums(&sum_u_w_, v);
+  std::copy(inverse, inverse + width_, sum_w);
+  std::fill(sum_u_w, sum_u_w + width_, 0.0f);
+  for (int k = 1; k <= radius_; ++k)
+  {
+    const float* left = inverse - k;
+    const float* right = inverse + k;
+    const auto du = static_cast<float>(k);
+    for (int u = 0; u < width_; ++u)
+    {
+      sum_w[u] += left[u] + right[u];
+      sum_u_w[u] += du * (right[u] - left[u]);
+    }
+  }
+}
+
+void WholeWindowFit::row(int v, const std::uint8_t* marked, cv::Vec3f* normals)
+{
+  for (; next_row_ <= v + radius_; ++next_row_)
+    horizontalSums(next_row_);
+  std::copy(sums(&sum_w_, v), sums(&sum_w_, v) + width_, total_w_.begin());
+  std::copy(sums(&sum_u_w_, v), sums(&sum_u_w_, v) + width_, total_u_w_.begin());
+  std::fill(total_v_w_.begin(), total_v_w_.end(), 0.0f);
+  for (int k = 1; k <= radius_; ++k)
+  {
+    const float* above = sums(&sum_w_, v - k);
+    const float* below = sums(&sum_w_, v + k);
+    const float* above_u = sums(&sum_u_w_, v - k);
+    const float* below_u = sums(&sum_u_w_, v + k);
+    const auto dv = static_cast<float>(k);
+    for (int u = 0; u < width_; ++u)
+    {
+      total_w_[u] += above[u] + below[u];
+      total_u_w_[u] += above_u[u] + below_u[u];
+      total_v_w_[u] += dv * (below[u] - above[u]);
+    }
+  }
+  // sum of du^2 over the window: window * 2 (1 + 4 + ... + r^2)
+  const float squares = static_cast<float>(window_ * radius_ * (radius_ + 1) * window_) / 3.0f;
+  const float count = static_cast<float>(window_ * window_);
+  for (int u = 0; u < width_; ++u)
+    if (marked[u])
+      normals[u] = normalOf(camera_, u, v, total_u_w_[u] / squares, total_v_w_[u] / squares, total_w_[u] / count);
+}
+
+GatedWindowFit::GatedWindowFit(const PaddedDepth& padded, const geometry::PinholeCamera& camera,
+                               const NormalOptions& options)
+  : padded_(padded)
+  , camera_(camera)
+  , step_ratio_(static_cast<float>(options.max_depth_step_ratio))
+  , min_neighbours_(options.min_neighbours)
+{
+}
+
+void GatedWindowFit::run(int v, int begin, int end, cv::Vec3f* normals) const
+{
+  const int count = end - begin;
+  const int radius = padded_.radius();
+  const float* depth = padded_.depthRow(v) + begin;
+  const float* inverse = padded_.inverseRow(v) + begin;
+  float n[BLOCK] = {}, u_sum[BLOCK] = {}, v_sum[BLOCK] = {}, uu[BLOCK] = {}, uv[BLOCK] = {}, vv[BLOCK] = {};
+  float w_sum[BLOCK] = {}, uw[BLOCK] = {}, vw[BLOCK] = {};
+  for (int dv = -radius; dv <= radius; ++dv)
+  {
+    const auto y = static_cast<float>(dv);
+    for (int du = -radius; du <= radius; ++du)
+    {
+      const auto x = static_cast<float>(du);
+      const float* z = padded_.depthRow(v + dv) + begin + du;
+      const float* w = padded_.inverseRow(v + dv) + begin + du;
+      for (int i = 0; i < count; ++i)
+      {
+        const float inside = std::abs(z[i] - depth[i]) <= step_ratio_ * depth[i] ? 1.0f : 0.0f;
+        const float dw = inside * (w[i] - inverse[i]);
+        n[i] += inside;
+        u_sum[i] += inside * x;
+        v_sum[i] += inside * y;
+        uu[i] += inside * (x * x);
+        uv[i] += inside * (x * y);
+        vv[i] += inside * (y * y);
+        w_sum[i] += dw;
+        uw[i] += dw * x;
+        vw[i] += dw * y;
+      }
+    }
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    if (n[i] < static_cast<float>(min_neighbours_ + 1))
+      continue;
+    const float mean_u = u_sum[i] / n[i];
+    const float mean_v = v_sum[i] / n[i];
+    const float mean_w = w_sum[i] / n[i];
+    const float c_uu = uu[i] / n[i] - mean_u * mean_u;
+    const float c_uv = uv[i] / n[i] - mean_u * mean_v;
+    const float c_vv = vv[i] / n[i] - mean_v * mean_v;
+    const float c_uw = uw[i] / n[i] - mean_u * mean_w;
+    const float c_vw = vw[i] / n[i] - mean_v * mean_w;
+    const float determinant = c_uu * c_vv - c_uv * c_uv;
+    // Pixels of one line leave the plane free to turn about it.
+    if (determinant < 0.02f * (c_uu + c_vv) * (c_uu + c_vv))
+      continue;
+    const float a = (c_uw * c_vv - c_vw * c_uv) / determinant;
+    const float b = (c_vw * c_uu - c_uw * c_uv) / determinant;
+    const float w_centre = inverse[i] + mean_w - a * mean_u - b * mean_v;
+    normals[begin + i] = normalOf(camera_, begin + i, v, a, b, w_centre);
+  }
+}
+
+}  // namespace object_modelling::rgbd

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "object_modelling/geometry/pinhole_camera.h"
+#include "object_modelling/rgbd/normals.h"
+
+namespace object_modelling::rgbd
+{
+/// A plane n . X = d seen by a pinhole camera has inverse depth w = A u + B v + C, linear in the pixel, with
+/// n ~ (A fx, B fy, A cx + B cy + C). The two fits below find A, B, C by least squares over a square window: in closed
+/// form where the whole window is one surface, by gated sums where it is not.
+
+/// Depth and inverse depth with a margin of one window radius; 0 where missing and in the margin.
+class PaddedDepth
+{
+public:
+  PaddedDepth(const cv::Mat& depth_m, int radius_px);
+
+  int radius() const { return radius_; }
+  cv::Size size() const { return { depth_.cols - 2 * radius_, depth_.rows - 2 * radius_ }; }
+  /// Row of the image, at its column 0; rows and columns reach one radius beyond the image.
+  const float* depthRow(int v) const { return depth_.ptr<float>(v + radius_) + radius_; }
+  const float* inverseRow(int v) const { return inverse_.ptr<float>(v + radius_) + radius_; }
+  const cv::Mat& depth() const { return depth_; }
+
+private:
+  int radius_;
+  cv::Mat depth_, inverse_;
+};
+
+/// CV_8UC1, 255 where every pixel of the window has depth within `step_ratio` of the centre's.
+cv::Mat wholeWindows(const PaddedDepth& padded, float step_ratio);
+
+/// For whole windows the normal equations are diagonal: A = sum(du w) / sum(du^2), likewise B, and C the mean.
+class WholeWindowFit
+{
+public:
+  WholeWindowFit(const PaddedDepth& padded, const geometry::PinholeCamera& camera);
+  /// Normals of the marked pixels of one row.
+  void row(int v, const std::uint8_t* marked, cv::Vec3f* normals);
+
+private:
+  void horizontalSums(int v);
+  float* sums(std::vector<float>* ring, int v) { return ring->data() + ((v + radius_) % window_) * width_; }
+
+  const PaddedDepth& padded_;
+  geometry::PinholeCamera camera_;
+  int radius_, window_, width_;
+  int next_row_;                        ///< first image row whose horizontal sums are not in the rings yet
+  std::vector<float> sum_w_, sum_u_w_;  ///< rings of `window_` rows: sum of w, of du w
+  std::vector<float> total_w_, total_u_w_, total_v_w_;
+};
+
+/// Sums over the pixels within the depth gate only, for a run of neighbouring pixels at once.
+class GatedWindowFit
+{
+public:
+  static constexpr int BLOCK = 64;
+
+  GatedWindowFit(const PaddedDepth& padded, const geometry::PinholeCamera& camera, const NormalOptions& options);
+  /// Normals of pixels [begin, end) of a row, at most BLOCK, all with depth.
+  void run(int v, int begin, int end, cv::Vec3f* normals) const;
+
+private:
+  const PaddedDepth& padded_;
+  geometry::PinholeCamera camera_;
+  float step_ratio_;
+  int min_neighbours_;
+};
+
+}  // namespace object_modelling::rgbd
