@@ -1,6 +1,8 @@
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "object_modelling/rgbd/keyframe.h"
@@ -34,6 +36,11 @@ public:
   /// Mask (CV_8UC1) of the object in another keyframe; grows the object's volume by what connects to it there.
   /// NO_RESULT where the object is not in view.
   base::Result<cv::Mat> propagate(const rgbd::Keyframe& keyframe);
+  /// The same without growing anything: the mask by the volume as it is now.
+  base::Result<cv::Mat> mask(const rgbd::Keyframe& keyframe) const;
+  /// Lets all keyframes vote again on the volume as it has become: what single views put there and others see through,
+  /// or see as part of a neighbour, goes. For a session that is complete.
+  void recount(const std::vector<rgbd::Keyframe>& keyframes);
 
   /// Support plane in the session frame, normal up; refined over all keyframes seen so far.
   std::optional<geometry::Plane> supportPlane() const;

@@ -18,6 +18,7 @@ struct SceneSegmenterOptions
   double plane_distance_sigmas = 3.0;   ///< points of a plane lie within so many axial sigmas of it
   double min_plane_ratio = 0.02;        ///< of the pixels with depth; smaller ones are no support
   double min_height_m = 0.004;          ///< above the support plane, plus the noise: what is lower is the table
+  double height_noise_sigmas = 2.0;     ///< the noise meant by min_height_m: axial sigmas along the plane's normal
   double max_height_m = 0.6;
   double max_distance_m = 2.0;              ///< hypotheses further from the camera are background
   double cluster_depth_step_ratio = 0.015;  ///< neighbours closer than this share of depth are connected
@@ -67,7 +68,10 @@ base::Result<int> selectByPixel(const SceneSegmentation& segmentation, int u, in
 /// Hypothesis whose box (grown by `margin_m`) contains the point, or the one nearest to it within the margin.
 base::Result<int> selectByPoint(const SceneSegmentation& segmentation, const Eigen::Vector3d& p_camera,
                                 double margin_m = 0.02);
-/// For unattended use: the largest cluster nearest to the image centre on the support plane.
+/// How clearly a hypothesis is the object that a camera is pointed at: large, near the image centre, not cut off by the
+/// image border. Comparable between views of one camera.
+double clearness(const Hypothesis& hypothesis, const geometry::PinholeCamera& camera);
+/// For unattended use: the largest cluster nearest to the image centre on the support plane, by clearness().
 base::Result<int> selectAutomatically(const SceneSegmentation& segmentation, const geometry::PinholeCamera& camera);
 
 }  // namespace object_modelling::segmentation

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+namespace object_modelling::segmentation
+{
+/// rgbd::axialSigma_m as a table: it is asked for at every pixel, and its arc cosine and root would cost more than the
+/// rest of the segmentation. Immutable; one instance serves all threads.
+class NoiseTable
+{
+public:
+  static const NoiseTable& instance();
+
+  /// cos_theta in [0, 1], of the angle between normal and viewing ray; clamped at 85 deg, where the model diverges.
+  float sigma_m(float z_m, float cos_theta) const
+  {
+    const int row = static_cast<int>(z_m * PER_METRE);
+    const int column = static_cast<int>(cos_theta * COLUMNS);
+    return sigma_[(row < 0 ? 0 : row >= ROWS ? ROWS - 1 : row) * COLUMNS +
+                  (column < 0 ? 0 : column >= COLUMNS ? COLUMNS - 1 : column)];
+  }
+
+private:
+  NoiseTable();
+
+  static constexpr int PER_METRE = 100;
+  static constexpr int ROWS = 8 * PER_METRE;
+  static constexpr int COLUMNS = 128;
+  std::vector<float> sigma_;
+};
+
+}  // namespace object_modelling::segmentation

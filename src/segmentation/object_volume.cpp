@@ -1,0 +1,169 @@
+#include "object_volume.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "noise_table.h"
+
+namespace object_modelling::segmentation
+{
+void ObjectVolume::clear()
+{
+  voxels_.clear();
+  lookup_.clear();
+  views_ = 0;
+}
+
+void ObjectVolume::clearVotes()
+{
+  for (Voxel& voxel : voxels_)
+    voxel.votes_for = voxel.votes_against = 0;
+}
+
+void ObjectVolume::add(const rgbd::Keyframe& keyframe, const cv::Mat& mask)
+{
+  ++views_;
+  for (int v = 0; v < mask.rows; ++v)
+  {
+    const auto* on = mask.ptr<std::uint8_t>(v);
+    for (int u = 0; u < mask.cols; ++u)
+    {
+      if (on[u] == 0 || !std::isfinite(keyframe.frame.depthAt_m(u, v)))
+        continue;
+      const Eigen::Vector3i index = indexOf(keyframe.T_session_camera * keyframe.frame.point(u, v).cast<double>());
+      const auto [entry, is_new] = lookup_.emplace(key(index), static_cast<int>(voxels_.size()));
+      if (is_new)
+        voxels_.push_back({ index, 0, 0, -1 });
+      Voxel& voxel = voxels_[entry->second];
+      if (voxel.last_view != views_)
+      {
+        voxel.last_view = views_;
+        ++voxel.votes_for;
+      }
+    }
+  }
+}
+
+void ObjectVolume::removeContradicted(const rgbd::Keyframe& keyframe, const cv::Mat& others)
+{
+  const rgbd::Frame& frame = keyframe.frame;
+  const Eigen::Isometry3d T_camera_session = keyframe.T_session_camera.inverse();
+  for (Voxel& voxel : voxels_)
+  {
+    const Eigen::Vector3d p_camera = T_camera_session * centreOf(voxel);
+    if (p_camera.z() <= 0 || voxel.last_view == views_)
+      continue;
+    const Eigen::Vector2d pixel = frame.camera.project(p_camera);
+    if (!frame.camera.contains(pixel))
+      continue;
+    const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
+    const double behind_m = frame.depthAt_m(u, v) - p_camera.z();
+    const double tolerance_m =
+        2 * voxel_size_m_ + 3 * NoiseTable::instance().sigma_m(static_cast<float>(p_camera.z()), 0.7F);
+    const bool seen_through = behind_m > tolerance_m;
+    const bool seen_as_other =
+        !others.empty() && others.at<std::uint8_t>(v, u) != 0 && std::abs(behind_m) <= tolerance_m;
+    voxel.votes_against += seen_through || seen_as_other;
+  }
+}
+
+bool ObjectVolume::contains(const Eigen::Vector3d& p_session) const
+{
+  const Eigen::Vector3i centre = indexOf(p_session);
+  if (occupied(centre))
+    return true;
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z)
+        if ((x != 0 || y != 0 || z != 0) && occupied(centre + Eigen::Vector3i(x, y, z)))
+          return true;
+  return false;
+}
+
+Eigen::Vector3d ObjectVolume::centroid() const
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (const Voxel& voxel : voxels_)
+    if (voxel.occupied())
+    {
+      sum += centreOf(voxel);
+      ++count;
+    }
+  return count > 0 ? (sum / count).eval() : sum;
+}
+
+cv::Rect ObjectVolume::areaInView(const rgbd::Keyframe& keyframe, double margin_m) const
+{
+  const rgbd::Frame& frame = keyframe.frame;
+  const Eigen::Isometry3d T_camera_session = keyframe.T_session_camera.inverse();
+  const Eigen::Vector2d focal_px(frame.camera.fx, frame.camera.fy);
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(1e9), high = -low;
+  for (const Voxel& voxel : voxels_)
+  {
+    if (!voxel.occupied())
+      continue;
+    const Eigen::Vector3d p_camera = T_camera_session * centreOf(voxel);
+    if (p_camera.z() <= margin_m)
+      continue;
+    const Eigen::Vector2d pixel = frame.camera.project(p_camera);
+    const Eigen::Vector2d margin_px = focal_px * (margin_m / p_camera.z());
+    low = low.cwiseMin(pixel - margin_px);
+    high = high.cwiseMax(pixel + margin_px);
+  }
+  const cv::Rect image(0, 0, frame.depth_m.cols, frame.depth_m.rows);
+  low = low.cwiseMax(-1.0).cwiseMin(1e5);
+  high = high.cwiseMin(1e5).cwiseMax(-1.0);
+  if (low.x() >= high.x() || low.y() >= high.y())
+    return {};
+  const cv::Point corner(static_cast<int>(std::floor(low.x())), static_cast<int>(std::floor(low.y())));
+  const cv::Point opposite(static_cast<int>(std::ceil(high.x())) + 1, static_cast<int>(std::ceil(high.y())) + 1);
+  return cv::Rect(corner, opposite) & image;
+}
+
+int ObjectVolume::visibleVoxels(const rgbd::Keyframe& keyframe) const
+{
+  const rgbd::Frame& frame = keyframe.frame;
+  const Eigen::Isometry3d T_camera_session = keyframe.T_session_camera.inverse();
+  int visible = 0;
+  for (const Voxel& voxel : voxels_)
+  {
+    if (!voxel.occupied())
+      continue;
+    const Eigen::Vector3d p_camera = T_camera_session * centreOf(voxel);
+    if (p_camera.z() <= 0)
+      continue;
+    const Eigen::Vector2d pixel = frame.camera.project(p_camera);
+    if (!frame.camera.contains(pixel))
+      continue;
+    const float z =
+        frame.depthAt_m(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
+    visible += std::abs(z - p_camera.z()) <= 2 * voxel_size_m_;
+  }
+  return visible;
+}
+
+std::uint64_t ObjectVolume::key(const Eigen::Vector3i& index)
+{
+  constexpr int OFFSET = 1 << 20;  // 21 bits per axis: +-5 km at 5 mm
+  const auto bits = [](int i) { return static_cast<std::uint64_t>(i + OFFSET) & 0x1FFFFF; };
+  return bits(index.x()) << 42 | bits(index.y()) << 21 | bits(index.z());
+}
+
+Eigen::Vector3i ObjectVolume::indexOf(const Eigen::Vector3d& p_session) const
+{
+  return (p_session / voxel_size_m_).array().floor().cast<int>();
+}
+
+Eigen::Vector3d ObjectVolume::centreOf(const Voxel& voxel) const
+{
+  return (voxel.index.cast<double>().array() + 0.5) * voxel_size_m_;
+}
+
+bool ObjectVolume::occupied(const Eigen::Vector3i& index) const
+{
+  const auto entry = lookup_.find(key(index));
+  return entry != lookup_.end() && voxels_[entry->second].occupied();
+}
+
+}  // namespace object_modelling::segmentation

@@ -1,0 +1,255 @@
+#include "plane_growing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "noise_table.h"
+#include "object_modelling/rgbd/normals.h"
+
+namespace object_modelling::segmentation
+{
+namespace
+{
+constexpr int CELL_PX = 8;
+constexpr std::int16_t NO_PLANE = -1;
+
+struct Seed
+{
+  double mean_square = 0;
+  int u = 0, v = 0;
+  PlaneMoments moments;
+};
+
+class PlaneGrower
+{
+public:
+  PlaneGrower(const WorkingImage& image, const PlaneGrowingOptions& options)
+    : image_(image)
+    , options_(options)
+    , cos_angle_(static_cast<float>(std::cos(options.angle_rad)))
+    , width_(image.frame.depth_m.cols)
+    , height_(image.frame.depth_m.rows)
+    , labels_(height_, width_, CV_16SC1, cv::Scalar(NO_PLANE))
+  {
+  }
+
+  GrownPlanes grow()
+  {
+    for (const Seed& seed : findSeeds())
+      growFrom(seed);
+    joinCoplanar();
+    return sorted();
+  }
+
+private:
+  bool hasNormal(int u, int v) const { return std::isfinite(image_.normals.at<cv::Vec3f>(v, u)[0]); }
+  Eigen::Map<const Eigen::Vector3f> normal(int u, int v) const
+  {
+    return Eigen::Map<const Eigen::Vector3f>(image_.normals.at<cv::Vec3f>(v, u).val);
+  }
+  /// Standard deviation of the point along its normal.
+  static float sigmaAlongNormal_m(const Eigen::Vector3f& p, const Eigen::Vector3f& n)
+  {
+    const float projection = std::abs(n.dot(p));  // z * (n . ray)
+    return NoiseTable::instance().sigma_m(p.z(), projection / p.norm()) * projection / p.z();
+  }
+
+  std::vector<Seed> findSeeds() const
+  {
+    std::vector<Seed> seeds;
+    for (int v = 0; v + CELL_PX <= height_; v += CELL_PX)
+      for (int u = 0; u + CELL_PX <= width_; u += CELL_PX)
+      {
+        Seed seed;
+        seed.u = u;
+        seed.v = v;
+        for (int y = v; y < v + CELL_PX; ++y)
+          for (int x = u; x < u + CELL_PX; ++x)
+            if (hasNormal(x, y))
+            {
+              const Eigen::Vector3f p = image_.frame.point(x, y);
+              const double sigma_m = sigmaAlongNormal_m(p, normal(x, y));
+              seed.moments.add(p.cast<double>(), 1 / (sigma_m * sigma_m));
+            }
+        geometry::Plane plane;
+        if (seed.moments.count < CELL_PX * CELL_PX * 3 / 4 || !seed.moments.fit(Eigen::Vector3d::Zero(), &plane))
+          continue;
+        seed.mean_square = seed.moments.meanSquare(plane);
+        if (seed.mean_square < 2)
+          seeds.push_back(seed);
+      }
+    std::stable_sort(seeds.begin(), seeds.end(),
+                     [](const Seed& a, const Seed& b) { return a.mean_square < b.mean_square; });
+    return seeds;
+  }
+
+  /// Puts the pixel into the region if it fits the region's plane.
+  void tryAdd(int u, int v, std::int16_t label, const Eigen::Vector3f& n, float offset_m, PlaneMoments* moments)
+  {
+    std::int16_t& pixel_label = labels_.at<std::int16_t>(v, u);
+    if (pixel_label != NO_PLANE || !hasNormal(u, v) || !(normal(u, v).dot(n) >= cos_angle_))
+      return;
+    const Eigen::Vector3f p = image_.frame.point(u, v);
+    const float sigma_m = sigmaAlongNormal_m(p, n);
+    if (!(std::abs(n.dot(p) + offset_m) <= static_cast<float>(options_.distance_sigmas) * sigma_m))
+      return;
+    pixel_label = label;
+    moments->add(p.cast<double>(), 1.0 / (static_cast<double>(sigma_m) * sigma_m));
+    queue_.push_back(v * width_ + u);
+  }
+
+  void growFrom(const Seed& seed)
+  {
+    int taken = 0;
+    for (int y = seed.v; y < seed.v + CELL_PX; ++y)
+      for (int x = seed.u; x < seed.u + CELL_PX; ++x)
+        taken += labels_.at<std::int16_t>(y, x) != NO_PLANE;
+    GrownPlane grown;
+    if (taken > CELL_PX * CELL_PX / 4 || !seed.moments.fit(Eigen::Vector3d::Zero(), &grown.plane))
+      return;
+
+    const auto label = static_cast<std::int16_t>(planes_.size());
+    queue_.clear();
+    Eigen::Vector3f n = grown.plane.normal.cast<float>();
+    float offset_m = static_cast<float>(grown.plane.offset_m);
+    for (int y = seed.v; y < seed.v + CELL_PX; ++y)
+      for (int x = seed.u; x < seed.u + CELL_PX; ++x)
+        tryAdd(x, y, label, n, offset_m, &grown.moments);
+    int next_refit = 2 * CELL_PX * CELL_PX;
+    for (std::size_t head = 0; head < queue_.size(); ++head)
+    {
+      if (grown.moments.count >= next_refit && grown.moments.fit(Eigen::Vector3d::Zero(), &grown.plane))
+      {
+        n = grown.plane.normal.cast<float>();
+        offset_m = static_cast<float>(grown.plane.offset_m);
+        next_refit = 2 * grown.moments.count;
+      }
+      const int u = queue_[head] % width_, v = queue_[head] / width_;
+      if (u > 0)
+        tryAdd(u - 1, v, label, n, offset_m, &grown.moments);
+      if (u + 1 < width_)
+        tryAdd(u + 1, v, label, n, offset_m, &grown.moments);
+      if (v > 0)
+        tryAdd(u, v - 1, label, n, offset_m, &grown.moments);
+      if (v + 1 < height_)
+        tryAdd(u, v + 1, label, n, offset_m, &grown.moments);
+    }
+    if (grown.moments.count >= options_.min_pixels && grown.moments.fit(Eigen::Vector3d::Zero(), &grown.plane))
+    {
+      planes_.push_back(grown);
+      return;
+    }
+    for (const int index : queue_)
+      labels_.at<std::int16_t>(index / width_, index % width_) = NO_PLANE;
+  }
+
+  /// Whether one plane explains both regions about as well as their own planes do.
+  bool coplanar(const GrownPlane& a, const GrownPlane& b, GrownPlane* joint) const
+  {
+    if (a.plane.normal.dot(b.plane.normal) < cos_angle_)
+      return false;
+    joint->moments = a.moments;
+    joint->moments.add(b.moments);
+    if (!joint->moments.fit(Eigen::Vector3d::Zero(), &joint->plane))
+      return false;
+    for (const GrownPlane* part : { &a, &b })
+      if (part->moments.meanSquare(joint->plane) > std::max(2.0, 1.5 * part->moments.meanSquare(part->plane)))
+        return false;
+    return true;
+  }
+
+  void joinCoplanar()
+  {
+    joined_into_.resize(planes_.size());
+    for (std::size_t i = 0; i < planes_.size(); ++i)
+      joined_into_[i] = static_cast<int>(i);
+    for (bool changed = true; changed;)
+    {
+      changed = false;
+      for (std::size_t i = 0; i < planes_.size(); ++i)
+        for (std::size_t j = i + 1; j < planes_.size() && joined_into_[i] == static_cast<int>(i); ++j)
+        {
+          GrownPlane joint;
+          if (joined_into_[j] != static_cast<int>(j) || !coplanar(planes_[i], planes_[j], &joint))
+            continue;
+          planes_[i] = joint;
+          std::replace(joined_into_.begin(), joined_into_.end(), static_cast<int>(j), static_cast<int>(i));
+          changed = true;
+        }
+    }
+  }
+
+  GrownPlanes sorted()
+  {
+    std::vector<int> order;
+    for (std::size_t i = 0; i < planes_.size(); ++i)
+      if (joined_into_[i] == static_cast<int>(i))
+        order.push_back(static_cast<int>(i));
+    std::stable_sort(order.begin(), order.end(),
+                     [this](int a, int b) { return planes_[a].moments.count > planes_[b].moments.count; });
+    GrownPlanes result;
+    std::vector<std::int16_t> rank(planes_.size(), NO_PLANE);
+    for (const int i : order)
+    {
+      rank[i] = static_cast<std::int16_t>(result.planes.size());
+      result.planes.push_back(planes_[i]);
+    }
+    for (int v = 0; v < height_; ++v)
+    {
+      auto* row = labels_.ptr<std::int16_t>(v);
+      for (int u = 0; u < width_; ++u)
+        if (row[u] != NO_PLANE)
+          row[u] = rank[joined_into_[row[u]]];
+    }
+    result.labels = labels_;
+    return result;
+  }
+
+  const WorkingImage& image_;
+  const PlaneGrowingOptions& options_;
+  const float cos_angle_;
+  const int width_, height_;
+  cv::Mat labels_;
+  std::vector<int> queue_;
+  std::vector<GrownPlane> planes_;
+  std::vector<int> joined_into_;
+};
+
+}  // namespace
+
+WorkingImage makeWorkingImage(const rgbd::Frame& frame, const cv::Mat& ignored)
+{
+  constexpr double WORKING_PIXELS = 320.0 * 240.0;
+  WorkingImage image;
+  const int width = frame.depth_m.cols, height = frame.depth_m.rows;
+  image.step = std::max(1, static_cast<int>(std::lround(std::sqrt(width * height / WORKING_PIXELS))));
+  const int step = image.step;
+  image.frame.depth_m.create((height + step - 1) / step, (width + step - 1) / step, CV_32FC1);
+  for (int v = 0; v < image.frame.depth_m.rows; ++v)
+  {
+    const auto* from = frame.depth_m.ptr<float>(v * step);
+    auto* to = image.frame.depth_m.ptr<float>(v);
+    for (int u = 0; u < image.frame.depth_m.cols; ++u)
+      to[u] =
+          !ignored.empty() && ignored.at<std::uint8_t>(v * step, u * step) != 0 ? std::nanf("") : from[u * step];
+  }
+  geometry::PinholeCamera& camera = image.frame.camera;
+  camera = frame.camera;
+  camera.width = image.frame.depth_m.cols;
+  camera.height = image.frame.depth_m.rows;
+  camera.fx /= step;
+  camera.fy /= step;
+  camera.cx /= step;
+  camera.cy /= step;
+  rgbd::NormalOptions options;
+  options.radius_px = 3;
+  image.normals = rgbd::computeNormals(image.frame, options);
+  return image;
+}
+
+GrownPlanes growPlanes(const WorkingImage& image, const PlaneGrowingOptions& options)
+{
+  return PlaneGrower(image, options).grow();
+}
+
+}  // namespace object_modelling::segmentation

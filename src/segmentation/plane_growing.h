@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "object_modelling/rgbd/frame.h"
+#include "plane_moments.h"
+
+namespace object_modelling::segmentation
+{
+/// A frame thinned out to about 320x240, with normals: enough to find planes, a quarter of the work. Pixel (u, v) is
+/// pixel (u * step, v * step) of the frame.
+struct WorkingImage
+{
+  int step = 1;
+  rgbd::Frame frame;
+  cv::Mat normals;  ///< CV_32FC3
+};
+/// Pixels outside `ignored` (CV_8UC1 of the frame's size, may be empty) only.
+WorkingImage makeWorkingImage(const rgbd::Frame& frame, const cv::Mat& ignored = {});
+
+struct PlaneGrowingOptions
+{
+  double angle_rad = 0.17453293;
+  double distance_sigmas = 3.0;
+  int min_pixels = 200;  ///< of the working image
+};
+
+struct GrownPlane
+{
+  geometry::Plane plane;  ///< normal towards the camera
+  PlaneMoments moments;
+};
+
+struct GrownPlanes
+{
+  std::vector<GrownPlane> planes;  ///< most pixels first
+  cv::Mat labels;                  ///< CV_16SC1 of the working image: index into planes, -1 none
+};
+
+/// Region growing from the flattest 8x8 cells, in order of their flatness, with refits at every doubling; regions
+/// of one plane (a table behind objects) are then joined. Linear in the number of pixels.
+GrownPlanes growPlanes(const WorkingImage& image, const PlaneGrowingOptions& options);
+
+}  // namespace object_modelling::segmentation

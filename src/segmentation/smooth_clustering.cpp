@@ -1,0 +1,192 @@
+#include "smooth_clustering.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "noise_table.h"
+
+namespace object_modelling::segmentation
+{
+namespace
+{
+constexpr int MAX_GAP_PX = 2;
+constexpr int MIN_NEIGHBOURS = 3;
+
+bool connected(float z_a, float z_b, float ratio)
+{
+  return std::abs(z_a - z_b) <= ratio * std::min(z_a, z_b);  // false for NaN
+}
+
+bool flying(const cv::Mat& depth_m, int u, int v, float ratio)
+{
+  const float z = depth_m.at<float>(v, u);
+  int neighbours = 0;
+  for (int y = std::max(0, v - 1); y <= std::min(depth_m.rows - 1, v + 1); ++y)
+    for (int x = std::max(0, u - 1); x <= std::min(depth_m.cols - 1, u + 1); ++x)
+      neighbours += connected(z, depth_m.at<float>(y, x), ratio);
+  return neighbours - 1 < MIN_NEIGHBOURS;  // the pixel has counted itself
+}
+
+class UnionFind
+{
+public:
+  int add()
+  {
+    parent_.push_back(static_cast<int>(parent_.size()));
+    return parent_.back();
+  }
+  int find(int i)
+  {
+    while (parent_[i] != i)
+      i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(int i, int j)
+  {
+    i = find(i);
+    j = find(j);
+    parent_[std::max(i, j)] = std::min(i, j);
+  }
+  int size() const { return static_cast<int>(parent_.size()); }
+
+private:
+  std::vector<int> parent_{ 0 };  // 0 is the background
+};
+
+}  // namespace
+
+cv::Mat pixelsAbove(const rgbd::Frame& frame, const geometry::Plane& plane_camera, const HeightLimits& limits,
+                    double depth_step_ratio, const cv::Rect& area)
+{
+  const NoiseTable& noise = NoiseTable::instance();
+  const cv::Rect image(0, 0, frame.depth_m.cols, frame.depth_m.rows);
+  const cv::Rect rect = area.area() > 0 ? area & image : image;
+  const auto n = plane_camera.normal.cast<float>().eval();
+  const auto offset_m = static_cast<float>(plane_camera.offset_m);
+  const auto min_m = static_cast<float>(limits.min_m), max_m = static_cast<float>(limits.max_m);
+  const auto sigmas = static_cast<float>(limits.noise_sigmas);
+  const auto max_z_m = static_cast<float>(limits.max_distance_m);
+  const auto ratio = static_cast<float>(depth_step_ratio);
+  const auto inverse_fx = static_cast<float>(1 / frame.camera.fx), inverse_fy = static_cast<float>(1 / frame.camera.fy);
+
+  cv::Mat above = cv::Mat::zeros(image.size(), CV_8UC1);
+  for (int v = rect.y; v < rect.y + rect.height; ++v)
+  {
+    const auto* depth_m = frame.depth_m.ptr<float>(v);
+    auto* out = above.ptr<std::uint8_t>(v);
+    const float y = (v - static_cast<float>(frame.camera.cy)) * inverse_fy;
+    for (int u = rect.x; u < rect.x + rect.width; ++u)
+    {
+      const float z = depth_m[u];
+      if (!(z <= max_z_m))
+        continue;
+      const float x = (u - static_cast<float>(frame.camera.cx)) * inverse_fx;
+      const float along_normal = n.x() * x + n.y() * y + n.z();  // height gained per metre of depth
+      const float height_m = z * along_normal + offset_m;
+      if (height_m <= min_m || height_m > max_m)
+        continue;
+      const float projection = std::abs(along_normal);
+      const float sigma_m = projection * noise.sigma_m(z, projection / std::sqrt(x * x + y * y + 1));
+      if (height_m > min_m + sigmas * sigma_m && !flying(frame.depth_m, u, v, ratio))
+        out[u] = 255;
+    }
+  }
+  return above;
+}
+
+cv::Mat Clusters::mask(const Cluster& cluster) const
+{
+  cv::Mat result = cv::Mat::zeros(labels.size(), CV_8UC1);
+  for (int v = cluster.rect.y; v < cluster.rect.y + cluster.rect.height; ++v)
+  {
+    const auto* from = labels.ptr<int>(v);
+    auto* to = result.ptr<std::uint8_t>(v);
+    for (int u = cluster.rect.x; u < cluster.rect.x + cluster.rect.width; ++u)
+      if (from[u] == cluster.label)
+        to[u] = 255;
+  }
+  return result;
+}
+
+Clusters clusterSmooth(const rgbd::Frame& frame, const cv::Mat& foreground, double depth_step_ratio, int min_pixels)
+{
+  const auto ratio = static_cast<float>(depth_step_ratio);
+  Clusters result;
+  result.labels = cv::Mat::zeros(foreground.size(), CV_32SC1);
+  cv::Mat& labels = result.labels;
+  const cv::Mat& depth_m = frame.depth_m;
+  UnionFind sets;
+
+  for (int v = 0; v < foreground.rows; ++v)
+  {
+    const auto* on = foreground.ptr<std::uint8_t>(v);
+    for (int u = 0; u < foreground.cols; ++u)
+    {
+      if (on[u] == 0)
+        continue;
+      const float z = depth_m.at<float>(v, u);
+      int label = 0;
+      const auto meet = [&](int x, int y) {
+        const int other = labels.at<int>(y, x);
+        if (other == 0 || !connected(z, depth_m.at<float>(y, x), ratio))
+          return;
+        if (label == 0)
+          label = other;
+        else
+          sets.join(label, other);
+      };
+      // The nearest pixel with depth to the left and above, and the diagonal neighbours.
+      for (int gap = 1; gap <= MAX_GAP_PX + 1 && u - gap >= 0; ++gap)
+        if (std::isfinite(depth_m.at<float>(v, u - gap)))
+        {
+          meet(u - gap, v);
+          break;
+        }
+      for (int gap = 1; gap <= MAX_GAP_PX + 1 && v - gap >= 0; ++gap)
+        if (std::isfinite(depth_m.at<float>(v - gap, u)))
+        {
+          meet(u, v - gap);
+          break;
+        }
+      if (v > 0 && u > 0)
+        meet(u - 1, v - 1);
+      if (v > 0 && u + 1 < foreground.cols)
+        meet(u + 1, v - 1);
+      labels.at<int>(v, u) = label != 0 ? label : sets.add();
+    }
+  }
+
+  struct Extent
+  {
+    int count = 0, left = 0, right = 0, top = 0, bottom = 0;
+  };
+  std::vector<Extent> extents(sets.size());
+  for (int v = 0; v < labels.rows; ++v)
+  {
+    auto* row = labels.ptr<int>(v);
+    for (int u = 0; u < labels.cols; ++u)
+    {
+      if (row[u] == 0)
+        continue;
+      row[u] = sets.find(row[u]);
+      Extent& extent = extents[row[u]];
+      if (extent.count++ == 0)
+        extent = { 1, u, u, v, v };
+      extent.left = std::min(extent.left, u);
+      extent.right = std::max(extent.right, u);
+      extent.bottom = v;
+    }
+  }
+  for (int label = 1; label < sets.size(); ++label)
+  {
+    const Extent& e = extents[label];
+    if (e.count >= min_pixels)
+      result.clusters.push_back(
+          { label, e.count, cv::Rect(e.left, e.top, e.right - e.left + 1, e.bottom - e.top + 1) });
+  }
+  std::stable_sort(result.clusters.begin(), result.clusters.end(),
+                   [](const Cluster& a, const Cluster& b) { return a.pixel_count > b.pixel_count; });
+  return result;
+}
+
+}  // namespace object_modelling::segmentation
