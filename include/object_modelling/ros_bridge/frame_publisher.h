@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include <ros/node_handle.h>
+
+#include "object_modelling/rgbd/frame.h"
+
+namespace object_modelling::ros_bridge
+{
+/// Publishes rectified frames under image_pipeline's names (names.h), as a camera driver does.
+class FramePublisher
+{
+public:
+  FramePublisher(ros::NodeHandle& node, const std::string& frame_id);
+
+  /// `raw_camera` is the camera before rectification; K and D of the CameraInfo tell of it, P of frame.camera. The mask
+  /// is published if the frame has one.
+  void publish(const rgbd::Frame& frame, const ros::Time& color_stamp, const ros::Time& depth_stamp,
+               const geometry::PinholeCamera& raw_camera);
+
+  /// Listeners of the colour topic.
+  std::uint32_t subscriberCount() const { return color_.getNumSubscribers(); }
+
+private:
+  std::string frame_id_;
+  ros::Publisher color_, depth_, info_, mask_;
+};
+
+}  // namespace object_modelling::ros_bridge

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <mutex>
+#include <string>
+
+#include <ros/node_handle.h>
+
+#include "object_modelling/keyframes/session_store.h"
+
+namespace object_modelling::ros_bridge
+{
+struct RemoteSessionStoreOptions
+{
+  std::string node = "keyframe_store";  ///< name of the store's node, relative to the node handle
+  double connect_timeout_s = 5;         ///< how long to wait for a service that is not there
+  double call_timeout_s = 60;           ///< how long one call may take
+  std::vector<std::string> violations() const;
+};
+
+/// The keyframe_store node as a SessionStore. Errors of the store arrive as the base::Error that it threw; a store that
+/// cannot be reached or does not answer in time is a TIMEOUT that names the service. Each call connects anew, so a
+/// restarted store is found again. Safe for several threads (calls are serialised); needs no spinning of the caller.
+class RemoteSessionStore : public keyframes::SessionStore
+{
+public:
+  RemoteSessionStore(const ros::NodeHandle& node, const RemoteSessionStoreOptions& options = {});
+
+  /// Whether the store answers at all, without waiting.
+  bool available() const;
+
+  void createSession(const keyframes::Session& session) override;
+  std::vector<keyframes::Session> listSessions() override;
+  keyframes::Session session(const std::string& session_id) override;
+  void updateSession(const keyframes::Session& session) override;
+  void deleteSession(const std::string& session_id) override;
+
+  void addKeyframe(const std::string& session_id, const rgbd::Keyframe& keyframe) override;
+  std::vector<int> keyframeIds(const std::string& session_id) override;
+  rgbd::Keyframe keyframe(const std::string& session_id, int keyframe_id) override;
+  void updatePoses(const std::string& session_id, const std::vector<keyframes::PoseUpdate>& updates) override;
+  void updateMasks(const std::string& session_id, const std::vector<keyframes::MaskUpdate>& updates) override;
+
+  void exportSession(const std::string& session_id, const std::string& path) override;
+  std::string importSession(const std::string& path) override;
+
+private:
+  /// Throws what the response's status says.
+  template <typename Service>
+  void call(const char* name, Service& service);
+
+  ros::NodeHandle node_;
+  RemoteSessionStoreOptions options_;
+  std::mutex mutex_;
+};
+
+}  // namespace object_modelling::ros_bridge

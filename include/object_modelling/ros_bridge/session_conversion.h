@@ -1,0 +1,13 @@
+#pragma once
+
+#include <object_modelling/Session.h>
+
+#include "object_modelling/keyframes/session.h"
+
+namespace object_modelling::ros_bridge
+{
+object_modelling::Session toMessage(const keyframes::Session& session);
+/// Throws base::Error (INVALID_ARGUMENT) for an unusable pose or plane. Ids are checked by the store.
+keyframes::Session fromMessage(const object_modelling::Session& message);
+
+}  // namespace object_modelling::ros_bridge

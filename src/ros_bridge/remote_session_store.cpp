@@ -1,0 +1,176 @@
+#include "object_modelling/ros_bridge/remote_session_store.h"
+
+#include <chrono>
+#include <future>
+#include <sstream>
+
+#include <object_modelling/AddKeyframe.h>
+#include <object_modelling/CreateSession.h>
+#include <object_modelling/DeleteSession.h>
+#include <object_modelling/ExportSession.h>
+#include <object_modelling/GetKeyframe.h>
+#include <object_modelling/GetSession.h>
+#include <object_modelling/ImportSession.h>
+#include <object_modelling/ListSessions.h>
+#include <object_modelling/UpdateMasks.h>
+#include <object_modelling/UpdatePoses.h>
+#include <object_modelling/UpdateSession.h>
+#include <ros/service.h>
+
+#include "object_modelling/base/options.h"
+#include "object_modelling/ros_bridge/keyframe_conversion.h"
+#include "object_modelling/ros_bridge/names.h"
+#include "object_modelling/ros_bridge/pose_conversion.h"
+#include "object_modelling/ros_bridge/session_conversion.h"
+#include "object_modelling/ros_bridge/status_conversion.h"
+
+namespace object_modelling::ros_bridge
+{
+std::vector<std::string> RemoteSessionStoreOptions::violations() const
+{
+  base::OptionsCheck check("remote_session_store");
+  check.require("node", !node.empty(), "must name the keyframe store's node");
+  check.positive("connect_timeout_s", connect_timeout_s);
+  check.positive("call_timeout_s", call_timeout_s);
+  return check.violations();
+}
+
+RemoteSessionStore::RemoteSessionStore(const ros::NodeHandle& node, const RemoteSessionStoreOptions& options)
+  : node_(node), options_(base::checked(options))
+{
+}
+
+bool RemoteSessionStore::available() const
+{
+  return ros::service::exists(node_.resolveName(options_.node + "/" + names::LIST_SESSIONS), false);
+}
+
+template <typename Service>
+void RemoteSessionStore::call(const char* name, Service& service)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::string resolved = node_.resolveName(options_.node + "/" + name);
+  const auto unreachable = [&](const std::string& what) -> base::Error
+  { return { base::StatusCode::TIMEOUT, "service " + resolved + " " + what }; };
+
+  std::ostringstream waited;
+  waited << "is not there after " << options_.connect_timeout_s << " s; is the keyframe store running?";
+  if (!ros::service::waitForService(resolved, ros::Duration(options_.connect_timeout_s)))
+    throw unreachable(waited.str());
+  // A connection of its own for this call: shutting it down from here ends a call that takes too long, which roscpp
+  // would otherwise wait for without limit.
+  ros::ServiceClient client = node_.serviceClient<Service>(resolved, true);
+  std::future<bool> done = std::async(std::launch::async, [&client, &service] { return client.call(service); });
+  const bool in_time =
+      done.wait_for(std::chrono::duration<double>(options_.call_timeout_s)) == std::future_status::ready;
+  if (!in_time)
+    client.shutdown();
+  if (!done.get())
+  {
+    std::ostringstream late;
+    late << "did not answer within " << options_.call_timeout_s << " s";
+    throw unreachable(in_time ? "went away during the call; see the log of the keyframe store" : late.str());
+  }
+  const base::Status status = fromMessage(service.response.status);
+  if (!status.ok())
+    throw base::Error(status.code, status.message);
+}
+
+void RemoteSessionStore::createSession(const keyframes::Session& session)
+{
+  object_modelling::CreateSession service;
+  service.request.session = toMessage(session);
+  call(names::CREATE_SESSION, service);
+}
+
+std::vector<keyframes::Session> RemoteSessionStore::listSessions()
+{
+  object_modelling::ListSessions service;
+  call(names::LIST_SESSIONS, service);
+  std::vector<keyframes::Session> sessions;
+  for (const object_modelling::Session& session : service.response.sessions)
+    sessions.push_back(fromMessage(session));
+  return sessions;
+}
+
+keyframes::Session RemoteSessionStore::session(const std::string& session_id)
+{
+  object_modelling::GetSession service;
+  service.request.session_id = session_id;
+  call(names::GET_SESSION, service);
+  return fromMessage(service.response.session);
+}
+
+void RemoteSessionStore::updateSession(const keyframes::Session& session)
+{
+  object_modelling::UpdateSession service;
+  service.request.session = toMessage(session);
+  call(names::UPDATE_SESSION, service);
+}
+
+void RemoteSessionStore::deleteSession(const std::string& session_id)
+{
+  object_modelling::DeleteSession service;
+  service.request.session_id = session_id;
+  call(names::DELETE_SESSION, service);
+}
+
+void RemoteSessionStore::addKeyframe(const std::string& session_id, const rgbd::Keyframe& keyframe)
+{
+  object_modelling::AddKeyframe service;
+  service.request.keyframe = toMessage(keyframe, session_id, std::string());
+  call(names::ADD_KEYFRAME, service);
+}
+
+std::vector<int> RemoteSessionStore::keyframeIds(const std::string& session_id)
+{
+  object_modelling::GetSession service;
+  service.request.session_id = session_id;
+  call(names::GET_SESSION, service);
+  return { service.response.keyframe_ids.begin(), service.response.keyframe_ids.end() };
+}
+
+rgbd::Keyframe RemoteSessionStore::keyframe(const std::string& session_id, int keyframe_id)
+{
+  object_modelling::GetKeyframe service;
+  service.request.session_id = session_id;
+  service.request.keyframe_id = keyframe_id;
+  call(names::GET_KEYFRAME, service);
+  return fromMessage(service.response.keyframe);
+}
+
+void RemoteSessionStore::updatePoses(const std::string& session_id, const std::vector<keyframes::PoseUpdate>& updates)
+{
+  object_modelling::UpdatePoses service;
+  service.request.session_id = session_id;
+  for (const keyframes::PoseUpdate& update : updates)
+    service.request.updates.push_back(toMessage(update));
+  call(names::UPDATE_POSES, service);
+}
+
+void RemoteSessionStore::updateMasks(const std::string& session_id, const std::vector<keyframes::MaskUpdate>& updates)
+{
+  object_modelling::UpdateMasks service;
+  service.request.session_id = session_id;
+  for (const keyframes::MaskUpdate& update : updates)
+    service.request.updates.push_back(toMessage(update, session_id));
+  call(names::UPDATE_MASKS, service);
+}
+
+void RemoteSessionStore::exportSession(const std::string& session_id, const std::string& path)
+{
+  object_modelling::ExportSession service;
+  service.request.session_id = session_id;
+  service.request.path = path;
+  call(names::EXPORT_SESSION, service);
+}
+
+std::string RemoteSessionStore::importSession(const std::string& path)
+{
+  object_modelling::ImportSession service;
+  service.request.path = path;
+  call(names::IMPORT_SESSION, service);
+  return service.response.session_id;
+}
+
+}  // namespace object_modelling::ros_bridge
