@@ -28,18 +28,8 @@ cv::Mat computeNormals(const Frame& frame, const NormalOptions& options)
   {
     auto* out = normals.ptr<cv::Vec3f>(v);
     const auto* is_whole = whole.ptr<std::uint8_t>(v);
-    const float* depth_m = padded.depthRow(v);
     whole_fit.row(v, is_whole, out);
-    for (int u = 0; u < normals.cols;)
-    {
-      const int begin = u;
-      while (u < normals.cols && u - begin < GatedWindowFit::BLOCK && !is_whole[u] && depth_m[u] > 0)
-        ++u;
-      if (u > begin)
-        gated_fit.run(v, begin, u, out);
-      else
-        ++u;
-    }
+    gated_fit.row(v, is_whole, out);
   }
   return normals;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace object_modelling::rgbd
@@ -23,7 +24,7 @@ inline cv::Vec3f normalOf(const geometry::PinholeCamera& camera, int u, int v, f
 
 PaddedDepth::PaddedDepth(const cv::Mat& depth_m, int radius_px)
   : radius_(radius_px)
-  , depth_(cv::Mat::zeros(depth_m.rows + 2 * radius_px, depth_m.cols + 2 * radius_px, CV_32FC1))
+  , depth_(cv::Mat::zeros(depth_m.rows + 2 * radius_px, depth_m.cols + 2 * radius_px + SLACK, CV_32FC1))
   , inverse_(cv::Mat::zeros(depth_.size(), CV_32FC1))
 {
   for (int v = 0; v < depth_m.rows; ++v)
@@ -132,62 +133,101 @@ GatedWindowFit::GatedWindowFit(const PaddedDepth& padded, const geometry::Pinhol
   : padded_(padded)
   , camera_(camera)
   , step_ratio_(static_cast<float>(options.max_depth_step_ratio))
-  , min_neighbours_(options.min_neighbours)
+  , min_count_(static_cast<float>(options.min_neighbours + 1))
 {
 }
 
-void GatedWindowFit::run(int v, int begin, int end, cv::Vec3f* normals) const
+GatedWindowFit::Moments GatedWindowFit::sums(int v, int u) const
 {
-  const int count = end - begin;
+  using Lanes = cv::v_float32x4;
   const int radius = padded_.radius();
-  const float* depth = padded_.depthRow(v) + begin;
-  const float* inverse = padded_.inverseRow(v) + begin;
-  float n[BLOCK] = {}, u_sum[BLOCK] = {}, v_sum[BLOCK] = {}, uu[BLOCK] = {}, uv[BLOCK] = {}, vv[BLOCK] = {};
-  float w_sum[BLOCK] = {}, uw[BLOCK] = {}, vw[BLOCK] = {};
+  // Depth images are smooth over two pixels: in larger windows every other pixel, as on a chessboard, does as well.
+  const int step = radius >= 3 ? 2 : 1;
+  const Lanes depth = cv::v_load(padded_.depthRow(v) + u);
+  const Lanes inverse = cv::v_load(padded_.inverseRow(v) + u);
+  const Lanes gate = depth * cv::v_setall_f32(step_ratio_);
+  const Lanes one = cv::v_setall_f32(1.0f);
+  const Lanes zero = cv::v_setzero_f32();
+  Lanes n = zero, u_sum = zero, v_sum = zero, uu = zero, uv = zero, vv = zero, w = zero, uw = zero, vw = zero;
   for (int dv = -radius; dv <= radius; ++dv)
   {
-    const auto y = static_cast<float>(dv);
-    for (int du = -radius; du <= radius; ++du)
+    const float* z_row = padded_.depthRow(v + dv) + u;
+    const float* w_row = padded_.inverseRow(v + dv) + u;
+    Lanes row_n = zero, row_u = zero, row_uu = zero, row_w = zero, row_uw = zero;
+    const int first = -radius + (step == 2 ? (radius + dv) & 1 : 0);
+    for (int du = first; du <= radius; du += step)
     {
-      const auto x = static_cast<float>(du);
-      const float* z = padded_.depthRow(v + dv) + begin + du;
-      const float* w = padded_.inverseRow(v + dv) + begin + du;
-      for (int i = 0; i < count; ++i)
-      {
-        const float inside = std::abs(z[i] - depth[i]) <= step_ratio_ * depth[i] ? 1.0f : 0.0f;
-        const float dw = inside * (w[i] - inverse[i]);
-        n[i] += inside;
-        u_sum[i] += inside * x;
-        v_sum[i] += inside * y;
-        uu[i] += inside * (x * x);
-        uv[i] += inside * (x * y);
-        vv[i] += inside * (y * y);
-        w_sum[i] += dw;
-        uw[i] += dw * x;
-        vw[i] += dw * y;
-      }
+      const Lanes inside = cv::v_abs(cv::v_load(z_row + du) - depth) <= gate;
+      const Lanes count = inside & one;
+      const Lanes dw = inside & (cv::v_load(w_row + du) - inverse);
+      const Lanes x = cv::v_setall_f32(static_cast<float>(du));
+      const Lanes count_x = count * x;
+      row_n += count;
+      row_u += count_x;
+      row_uu += count_x * x;
+      row_w += dw;
+      row_uw += dw * x;
     }
+    const Lanes y = cv::v_setall_f32(static_cast<float>(dv));
+    n += row_n;
+    u_sum += row_u;
+    v_sum += row_n * y;
+    uu += row_uu;
+    uv += row_u * y;
+    vv += row_n * y * y;
+    w += row_w;
+    uw += row_uw;
+    vw += row_w * y;
   }
-  for (int i = 0; i < count; ++i)
+  Moments moments;
+  cv::v_store(moments.n, n);
+  cv::v_store(moments.u, u_sum);
+  cv::v_store(moments.v, v_sum);
+  cv::v_store(moments.uu, uu);
+  cv::v_store(moments.uv, uv);
+  cv::v_store(moments.vv, vv);
+  cv::v_store(moments.w, w);
+  cv::v_store(moments.uw, uw);
+  cv::v_store(moments.vw, vw);
+  return moments;
+}
+
+void GatedWindowFit::solve(const Moments& moments, int lane, int u, int v, cv::Vec3f* normal) const
+{
+  const float n = moments.n[lane];
+  if (n < min_count_)
+    return;
+  const float mean_u = moments.u[lane] / n;
+  const float mean_v = moments.v[lane] / n;
+  const float mean_w = moments.w[lane] / n;
+  const float c_uu = moments.uu[lane] / n - mean_u * mean_u;
+  const float c_uv = moments.uv[lane] / n - mean_u * mean_v;
+  const float c_vv = moments.vv[lane] / n - mean_v * mean_v;
+  const float c_uw = moments.uw[lane] / n - mean_u * mean_w;
+  const float c_vw = moments.vw[lane] / n - mean_v * mean_w;
+  const float determinant = c_uu * c_vv - c_uv * c_uv;
+  // Pixels of one line leave the plane free to turn about it.
+  if (determinant < 0.02f * (c_uu + c_vv) * (c_uu + c_vv))
+    return;
+  const float a = (c_uw * c_vv - c_vw * c_uv) / determinant;
+  const float b = (c_vw * c_uu - c_uw * c_uv) / determinant;
+  *normal = normalOf(camera_, u, v, a, b, padded_.inverseRow(v)[u] + mean_w - a * mean_u - b * mean_v);
+}
+
+void GatedWindowFit::row(int v, const std::uint8_t* marked, cv::Vec3f* normals) const
+{
+  const float* depth = padded_.depthRow(v);
+  const int width = padded_.size().width;
+  const auto wanted = [&](int u) { return !marked[u] && depth[u] > 0; };
+  for (int u = 0; u < width; ++u)
   {
-    if (n[i] < static_cast<float>(min_neighbours_ + 1))
+    if (!wanted(u))
       continue;
-    const float mean_u = u_sum[i] / n[i];
-    const float mean_v = v_sum[i] / n[i];
-    const float mean_w = w_sum[i] / n[i];
-    const float c_uu = uu[i] / n[i] - mean_u * mean_u;
-    const float c_uv = uv[i] / n[i] - mean_u * mean_v;
-    const float c_vv = vv[i] / n[i] - mean_v * mean_v;
-    const float c_uw = uw[i] / n[i] - mean_u * mean_w;
-    const float c_vw = vw[i] / n[i] - mean_v * mean_w;
-    const float determinant = c_uu * c_vv - c_uv * c_uv;
-    // Pixels of one line leave the plane free to turn about it.
-    if (determinant < 0.02f * (c_uu + c_vv) * (c_uu + c_vv))
-      continue;
-    const float a = (c_uw * c_vv - c_vw * c_uv) / determinant;
-    const float b = (c_vw * c_uu - c_uw * c_uv) / determinant;
-    const float w_centre = inverse[i] + mean_w - a * mean_u - b * mean_v;
-    normals[begin + i] = normalOf(camera_, begin + i, v, a, b, w_centre);
+    const Moments moments = sums(v, u);
+    for (int lane = 0; lane < LANES && u + lane < width; ++lane)
+      if (wanted(u + lane))
+        solve(moments, lane, u + lane, v, &normals[u + lane]);
+    u += LANES - 1;
   }
 }
 

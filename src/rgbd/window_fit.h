@@ -21,13 +21,15 @@ public:
   PaddedDepth(const cv::Mat& depth_m, int radius_px);
 
   int radius() const { return radius_; }
-  cv::Size size() const { return { depth_.cols - 2 * radius_, depth_.rows - 2 * radius_ }; }
+  cv::Size size() const { return { depth_.cols - 2 * radius_ - SLACK, depth_.rows - 2 * radius_ }; }
   /// Row of the image, at its column 0; rows and columns reach one radius beyond the image.
   const float* depthRow(int v) const { return depth_.ptr<float>(v + radius_) + radius_; }
   const float* inverseRow(int v) const { return inverse_.ptr<float>(v + radius_) + radius_; }
   const cv::Mat& depth() const { return depth_; }
 
 private:
+  static constexpr int SLACK = 4;  ///< columns more on the right: four pixels at a time may reach past the end
+
   int radius_;
   cv::Mat depth_, inverse_;
 };
@@ -55,21 +57,29 @@ private:
   std::vector<float> total_w_, total_u_w_, total_v_w_;
 };
 
-/// Sums over the pixels within the depth gate only, for a run of neighbouring pixels at once.
+/// Sums over the pixels within the depth gate only, for four neighbouring pixels at once.
 class GatedWindowFit
 {
 public:
-  static constexpr int BLOCK = 64;
-
   GatedWindowFit(const PaddedDepth& padded, const geometry::PinholeCamera& camera, const NormalOptions& options);
-  /// Normals of pixels [begin, end) of a row, at most BLOCK, all with depth.
-  void run(int v, int begin, int end, cv::Vec3f* normals) const;
+  /// Normals of the pixels of one row that have depth and are not marked.
+  void row(int v, const std::uint8_t* marked, cv::Vec3f* normals) const;
 
 private:
+  static constexpr int LANES = 4;
+  /// Moments of the gated pixels about the centre pixel and its inverse depth.
+  struct Moments
+  {
+    float n[LANES], u[LANES], v[LANES], uu[LANES], uv[LANES], vv[LANES], w[LANES], uw[LANES], vw[LANES];
+  };
+
+  Moments sums(int v, int u) const;
+  void solve(const Moments& moments, int lane, int u, int v, cv::Vec3f* normal) const;
+
   const PaddedDepth& padded_;
   geometry::PinholeCamera camera_;
   float step_ratio_;
-  int min_neighbours_;
+  float min_count_;
 };
 
 }  // namespace object_modelling::rgbd
