@@ -14,6 +14,7 @@ struct StampedPose
 };
 
 /// TUM format: "stamp tx ty tz qx qy qz qw" per line, '#' comments. Written through a temporary file and renamed.
+/// Reading throws base::Error: NOT_FOUND, or BAD_INPUT with file and line.
 void writeTrajectory(const std::string& path, const std::vector<StampedPose>& trajectory);
 std::vector<StampedPose> readTrajectory(const std::string& path);
 
