@@ -35,17 +35,20 @@ public:
   virtual void createSession(const Session& session) = 0;
   virtual std::vector<Session> listSessions() = 0;  ///< oldest first
   virtual Session session(const std::string& session_id) = 0;
-  /// Replaces object_id, closed, support_plane_session and T_model_session.
+  /// Replaces object_id, reference_is_object, closed, support_plane_session and T_model_session.
   virtual void updateSession(const Session& session) = 0;
   virtual void deleteSession(const std::string& session_id) = 0;
 
+  /// Sets the session's started_s too if this is its first keyframe and started_s is 0. Depth is kept to within half of
+  /// 0.1 mm (1 mm if any reading is beyond 6.5 m; beyond 65.5 m counts as missing), everything else exactly.
   virtual void addKeyframe(const std::string& session_id, const rgbd::Keyframe& keyframe) = 0;
   virtual std::vector<int> keyframeIds(const std::string& session_id) = 0;  ///< ascending
   virtual rgbd::Keyframe keyframe(const std::string& session_id, int keyframe_id) = 0;
   virtual void updatePoses(const std::string& session_id, const std::vector<PoseUpdate>& updates) = 0;
   virtual void updateMasks(const std::string& session_id, const std::vector<MaskUpdate>& updates) = 0;
 
-  /// One session as a store file of its own (SQLite, whatever the backend), and back under its own id.
+  /// One session as a store file of its own (SQLite, whatever the backend), and back under its own id. Neither replaces
+  /// what is there: FAILED_PRECONDITION if the file, or on import the session, exists.
   virtual void exportSession(const std::string& session_id, const std::string& path) = 0;
   virtual std::string importSession(const std::string& path) = 0;
 };
@@ -53,7 +56,9 @@ public:
 /// All keyframes of a session, ascending.
 std::vector<rgbd::Keyframe> loadKeyframes(SessionStore& store, const std::string& session_id);
 
-/// Opens or creates a store. `connection`: path of a SQLite file (WAL), or "postgresql://..." as SOCI spells it.
+/// Opens or creates a store, and brings one of an older schema up to date. `connection`: path of a SQLite file (WAL;
+/// its folder is made if missing), or "postgresql://user@host:port/database" or "postgresql://host=... dbname=...".
+/// Throws base::Error: STORAGE (newer schema, not writable, server not reachable), BAD_INPUT (some other file).
 /// Safe for several threads (calls are serialised) and, on SQLite, several processes.
 std::unique_ptr<SessionStore> openSqlStore(const std::string& connection);
 

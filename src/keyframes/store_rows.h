@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "keyframe_codec.h"
+#include "object_modelling/keyframes/session.h"
+#include "object_modelling/keyframes/session_store.h"
+#include "sql_dialect.h"
+
+/// The statements of the store. All run within a transaction of the caller's and throw soci::soci_error, or base::Error
+/// (NOT_FOUND, FAILED_PRECONDITION) naming the session and keyframe.
+namespace object_modelling::keyframes
+{
+void insertSession(soci::session& sql, const Session& session);
+std::vector<Session> selectSessions(soci::session& sql);
+Session selectSession(soci::session& sql, const std::string& session_id);
+void updateSessionRow(soci::session& sql, const Session& session);
+void deleteSessionRows(soci::session& sql, const std::string& session_id);
+
+void insertKeyframe(soci::session& sql, const SqlDialect& dialect, const std::string& session_id,
+                    const KeyframeRow& row);
+std::vector<int> selectKeyframeIds(soci::session& sql, const std::string& session_id);
+KeyframeRow selectKeyframe(soci::session& sql, const SqlDialect& dialect, const std::string& session_id,
+                           int keyframe_id);
+void updatePose(soci::session& sql, const std::string& session_id, const PoseUpdate& update);
+void updateMask(soci::session& sql, const SqlDialect& dialect, const std::string& session_id, const MaskUpdate& update);
+
+}  // namespace object_modelling::keyframes

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "object_modelling/base/status.h"
+#include "object_modelling/keyframes/session_store.h"
+
+namespace object_modelling::keyframes
+{
+/// A folder under the system's temporary folder that goes with the object. Anybody may write to it.
+class TemporaryFolder
+{
+public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+  const std::string& path() const { return path_; }
+
+private:
+  std::string path_;
+};
+
+/// A keyframe with a textured image, slanted depth with holes, a mask and observations; another for every id.
+rgbd::Keyframe makeKeyframe(int id, int width = 64, int height = 48);
+Session makeSession(const std::string& id);
+
+/// Largest difference of depth in m; infinite where only one of them is missing.
+double depthDifference_m(const cv::Mat& a, const cv::Mat& b);
+/// Everything but the depth image, exactly.
+void expectSame(const rgbd::Keyframe& actual, const rgbd::Keyframe& expected);
+
+/// Status of the base::Error that the call throws; OK if none.
+base::Status statusOf(const std::function<void()>& call);
+
+}  // namespace object_modelling::keyframes

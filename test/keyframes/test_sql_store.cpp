@@ -1,0 +1,277 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include "postgresql_server.h"
+#include "store_fixtures.h"
+
+namespace object_modelling::keyframes
+{
+using base::StatusCode;
+
+namespace
+{
+const geometry::Matrix6d NO_COVARIANCE = geometry::Matrix6d::Zero();
+}
+
+/// The same behaviour on every backend.
+class SqlStore : public ::testing::TestWithParam<std::string>
+{
+protected:
+  void SetUp() override
+  {
+    if (GetParam() == "sqlite")
+      connection_ = folder_.file("store.db");
+    else if (PostgresqlServer* server = PostgresqlServer::shared())
+      connection_ = server->createDatabase();
+    else
+      GTEST_SKIP() << "PostgreSQL's server is not installed (package postgresql)";
+    store_ = openSqlStore(connection_);
+  }
+  void reopen()
+  {
+    store_.reset();
+    store_ = openSqlStore(connection_);
+  }
+  StatusCode codeOf(const std::function<void()>& call) { return statusOf(call).code; }
+
+  TemporaryFolder folder_;
+  std::string connection_;
+  std::unique_ptr<SessionStore> store_;
+};
+INSTANTIATE_TEST_SUITE_P(Backends, SqlStore, ::testing::Values("sqlite", "postgresql"),
+                         [](const auto& backend) { return backend.param; });
+
+TEST_P(SqlStore, KeepsSessions)
+{
+  EXPECT_TRUE(store_->listSessions().empty());
+  Session session = makeSession("late");
+  session.started_s = 20;
+  store_->createSession(session);
+  session = makeSession("early");
+  session.started_s = 10.000000125;
+  session.reference_is_object = true;
+  session.support_plane_session = geometry::Plane{ Eigen::Vector3d(1, 2, 3).normalized(), 1.0 / 3 };
+  session.T_model_session = makeKeyframe(1).T_session_camera;
+  store_->createSession(session);
+  reopen();
+
+  const std::vector<Session> sessions = store_->listSessions();
+  ASSERT_EQ(sessions.size(), 2u);
+  EXPECT_EQ(sessions[0].id, "early");
+  EXPECT_EQ(sessions[1].id, "late");
+  const Session read = store_->session("early");
+  EXPECT_EQ(read.object_id, "cup");
+  EXPECT_EQ(read.camera_frame_id, session.camera_frame_id);
+  EXPECT_EQ(read.started_s, session.started_s);
+  EXPECT_EQ(read.keyframe_count, 0);
+  EXPECT_TRUE(read.reference_is_object);
+  EXPECT_FALSE(read.closed);
+  EXPECT_EQ(read.support_plane_session->normal, session.support_plane_session->normal);
+  EXPECT_EQ(read.support_plane_session->offset_m, session.support_plane_session->offset_m);
+  EXPECT_EQ(read.T_model_session->matrix(), session.T_model_session->matrix());
+  EXPECT_FALSE(sessions[1].support_plane_session || sessions[1].T_model_session || sessions[1].reference_is_object);
+}
+
+TEST_P(SqlStore, UpdatesSessions)
+{
+  store_->createSession(makeSession("a"));
+  Session changed = makeSession("a");
+  changed.object_id = "box";
+  changed.camera_frame_id = "not updated";
+  changed.closed = true;
+  changed.T_model_session = Eigen::Isometry3d::Identity();
+  store_->updateSession(changed);
+  Session read = store_->session("a");
+  EXPECT_EQ(read.object_id, "box");
+  EXPECT_EQ(read.camera_frame_id, makeSession("a").camera_frame_id);
+  EXPECT_TRUE(read.closed);
+  EXPECT_TRUE(read.T_model_session);
+  changed.T_model_session.reset();
+  store_->updateSession(changed);
+  EXPECT_FALSE(store_->session("a").T_model_session);
+}
+
+TEST_P(SqlStore, KeepsKeyframesAcrossReopening)
+{
+  store_->createSession(makeSession("a"));
+  for (const int id : { 2, 0, 5 })
+    store_->addKeyframe("a", makeKeyframe(id));
+  reopen();
+  EXPECT_EQ(store_->keyframeIds("a"), (std::vector<int>{ 0, 2, 5 }));
+  EXPECT_EQ(store_->session("a").keyframe_count, 3);
+  EXPECT_EQ(store_->session("a").started_s, makeKeyframe(2).frame.stamp_s);
+  const std::vector<rgbd::Keyframe> keyframes = loadKeyframes(*store_, "a");
+  ASSERT_EQ(keyframes.size(), 3u);
+  for (const rgbd::Keyframe& keyframe : keyframes)
+  {
+    const rgbd::Keyframe expected = makeKeyframe(keyframe.id);
+    expectSame(keyframe, expected);
+    EXPECT_LE(depthDifference_m(keyframe.frame.depth_m, expected.frame.depth_m), 0.5e-4 + 1e-6);
+  }
+}
+
+TEST_P(SqlStore, UpdatesPosesAllOrNone)
+{
+  store_->createSession(makeSession("a"));
+  store_->addKeyframe("a", makeKeyframe(0));
+  store_->addKeyframe("a", makeKeyframe(1));
+  const rgbd::Keyframe moved = makeKeyframe(7);
+  store_->updatePoses("a", { { 1, moved.T_session_camera, moved.covariance } });
+  EXPECT_EQ(store_->keyframe("a", 1).T_session_camera.matrix(), moved.T_session_camera.matrix());
+  EXPECT_EQ(store_->keyframe("a", 1).covariance, moved.covariance);
+
+  const Eigen::Isometry3d other = makeKeyframe(9).T_session_camera;
+  EXPECT_EQ(codeOf(
+                [&] {
+                  store_->updatePoses("a", { { 0, other, NO_COVARIANCE }, { 42, other, NO_COVARIANCE } });
+                }),
+            StatusCode::NOT_FOUND);
+  EXPECT_EQ(store_->keyframe("a", 0).T_session_camera.matrix(), makeKeyframe(0).T_session_camera.matrix());
+  EXPECT_EQ(codeOf(
+                [&] {
+                  store_->updatePoses("a", { { 0, other, NO_COVARIANCE }, { 0, other, NO_COVARIANCE } });
+                }),
+            StatusCode::INVALID_ARGUMENT);
+  Eigen::Isometry3d broken = other;
+  broken(0, 3) = std::nan("");
+  EXPECT_EQ(codeOf([&] { store_->updatePoses("a", { { 0, broken, NO_COVARIANCE } }); }), StatusCode::INVALID_ARGUMENT);
+}
+
+TEST_P(SqlStore, UpdatesMasksAllOrNone)
+{
+  store_->createSession(makeSession("a"));
+  store_->addKeyframe("a", makeKeyframe(0));
+  store_->addKeyframe("a", makeKeyframe(1));
+  cv::Mat mask(48, 64, CV_8UC1, cv::Scalar(0));
+  mask.at<unsigned char>(3, 4) = 255;
+  const auto countIn = [&](int id) { return cv::countNonZero(store_->keyframe("a", id).frame.object_mask); };
+  store_->updateMasks("a", { { 0, mask }, { 1, cv::Mat() } });
+  EXPECT_EQ(countIn(0), 1);
+  EXPECT_TRUE(store_->keyframe("a", 1).frame.object_mask.empty());
+  store_->updateMasks("a", { { 1, mask } });
+  EXPECT_EQ(countIn(1), 1);
+
+  mask.setTo(255);
+  EXPECT_EQ(codeOf(
+                [&] {
+                  store_->updateMasks("a", { { 0, mask }, { 1, mask.rowRange(0, 5) } });
+                }),
+            StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(codeOf([&] { store_->updateMasks("a", { { 0, mask }, { 8, mask } }); }), StatusCode::NOT_FOUND);
+  EXPECT_EQ(countIn(0), 1);
+}
+
+TEST_P(SqlStore, DeletesASessionWithAllThatBelongsToIt)
+{
+  store_->createSession(makeSession("a"));
+  store_->createSession(makeSession("b"));
+  store_->addKeyframe("a", makeKeyframe(0));
+  store_->addKeyframe("b", makeKeyframe(0));
+  store_->deleteSession("a");
+  EXPECT_EQ(codeOf([&] { store_->keyframe("a", 0); }), StatusCode::NOT_FOUND);
+  store_->createSession(makeSession("a"));
+  EXPECT_TRUE(store_->keyframeIds("a").empty());
+  store_->addKeyframe("a", makeKeyframe(0));
+  expectSame(store_->keyframe("b", 0), makeKeyframe(0));
+}
+
+TEST_P(SqlStore, SaysWhatIsMissingOrTaken)
+{
+  const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  for (const std::function<void()>& call :
+       std::vector<std::function<void()>>{
+           [&] { store_->session("none"); }, [&] { store_->updateSession(makeSession("none")); },
+           [&] { store_->deleteSession("none"); }, [&] { store_->addKeyframe("none", makeKeyframe(0)); },
+           [&] { store_->keyframeIds("none"); }, [&] { store_->keyframe("none", 0); },
+           [&] {
+             store_->updatePoses("none", { { 0, pose, NO_COVARIANCE } });
+           },
+           [&] { store_->updateMasks("none", {}); }, [&] { store_->exportSession("none", folder_.file("out.db")); } })
+  {
+    const base::Status status = statusOf(call);
+    EXPECT_EQ(status.code, StatusCode::NOT_FOUND);
+    EXPECT_NE(status.message.find("'none'"), std::string::npos) << status.message;
+  }
+  store_->createSession(makeSession("a"));
+  store_->addKeyframe("a", makeKeyframe(0));
+  EXPECT_EQ(codeOf([&] { store_->createSession(makeSession("a")); }), StatusCode::FAILED_PRECONDITION);
+  EXPECT_EQ(codeOf([&] { store_->addKeyframe("a", makeKeyframe(0)); }), StatusCode::FAILED_PRECONDITION);
+  const base::Status status = statusOf([&] { store_->keyframe("a", 3); });
+  EXPECT_EQ(status.code, StatusCode::NOT_FOUND);
+  EXPECT_NE(status.message.find("keyframe 3"), std::string::npos) << status.message;
+  EXPECT_EQ(store_->keyframeIds("a").size(), 1u);
+}
+
+TEST_P(SqlStore, RefusesHostileIds)
+{
+  store_->createSession(makeSession("a"));
+  for (const std::string& id : { std::string("'; DROP TABLE sessions; --"), std::string("../x"), std::string(),
+                                 std::string(65, 'x'), std::string("a\0b", 3), std::string("a' OR '1'='1") })
+  {
+    EXPECT_EQ(codeOf([&] { store_->createSession(makeSession(id)); }), StatusCode::INVALID_ARGUMENT) << id;
+    EXPECT_EQ(codeOf([&] { store_->session(id); }), StatusCode::INVALID_ARGUMENT) << id;
+    EXPECT_EQ(codeOf([&] { store_->deleteSession(id); }), StatusCode::INVALID_ARGUMENT) << id;
+    EXPECT_EQ(codeOf([&] { store_->addKeyframe(id, makeKeyframe(0)); }), StatusCode::INVALID_ARGUMENT) << id;
+    EXPECT_EQ(codeOf([&] { store_->exportSession(id, folder_.file("x")); }), StatusCode::INVALID_ARGUMENT) << id;
+  }
+  Session session = makeSession("b");
+  session.object_id = "../x";
+  EXPECT_EQ(codeOf([&] { store_->createSession(session); }), StatusCode::INVALID_ARGUMENT);
+  session = makeSession("b");
+  session.camera_frame_id = "'); DROP TABLE sessions; --";  // any text: it goes nowhere but into its column
+  store_->createSession(session);
+  EXPECT_EQ(store_->session("b").camera_frame_id, session.camera_frame_id);
+  EXPECT_EQ(store_->listSessions().size(), 2u);
+}
+
+TEST_P(SqlStore, RefusesKeyframesThatDoNotFit)
+{
+  store_->createSession(makeSession("a"));
+  rgbd::Keyframe keyframe = makeKeyframe(0);
+  keyframe.frame.depth_m = keyframe.frame.depth_m.rowRange(0, 10);
+  EXPECT_EQ(codeOf([&] { store_->addKeyframe("a", keyframe); }), StatusCode::INVALID_ARGUMENT);
+  EXPECT_TRUE(store_->keyframeIds("a").empty());
+  store_->addKeyframe("a", makeKeyframe(0));
+}
+
+TEST_P(SqlStore, ServesSeveralThreads)
+{
+  constexpr int THREADS = 4, PER_THREAD = 8;
+  store_->createSession(makeSession("a"));
+  std::atomic<int> failures{ 0 };
+  std::vector<std::thread> threads;
+  for (int t = 0; t < THREADS; ++t)
+    threads.emplace_back(
+        [&, t]
+        {
+          for (int i = 0; i < PER_THREAD; ++i)
+          {
+            const int id = t * PER_THREAD + i;
+            const StatusCode code = codeOf(
+                [&]
+                {
+                  store_->addKeyframe("a", makeKeyframe(id));
+                  store_->updatePoses("a", { { id, Eigen::Isometry3d::Identity(), NO_COVARIANCE } });
+                  if (store_->keyframe("a", id).id != id || store_->listSessions().size() != 1)
+                    ++failures;
+                });
+            failures += code != StatusCode::OK;
+          }
+        });
+  for (std::thread& thread : threads)
+    thread.join();
+  EXPECT_EQ(failures, 0);
+  EXPECT_EQ(store_->keyframeIds("a").size(), static_cast<std::size_t>(THREADS * PER_THREAD));
+}
+
+TEST_P(SqlStore, SharesItsDataWithAnotherConnection)
+{
+  const std::unique_ptr<SessionStore> other = openSqlStore(connection_);
+  store_->createSession(makeSession("a"));
+  other->addKeyframe("a", makeKeyframe(0));
+  expectSame(store_->keyframe("a", 0), makeKeyframe(0));
+}
+
+}  // namespace object_modelling::keyframes

@@ -1,0 +1,117 @@
+#include <gtest/gtest.h>
+
+#include <soci/sqlite3/soci-sqlite3.h>
+#include <fstream>
+
+#include "../../src/keyframes/store_schema.h"
+#include "postgresql_server.h"
+#include "store_fixtures.h"
+
+namespace object_modelling::keyframes
+{
+using base::StatusCode;
+
+class StoreSchema : public ::testing::TestWithParam<std::string>
+{
+protected:
+  void SetUp() override
+  {
+    if (GetParam() == "sqlite")
+      connection_ = folder_.file("store.db");
+    else if (PostgresqlServer* server = PostgresqlServer::shared())
+      connection_ = server->createDatabase();
+    else
+      GTEST_SKIP() << "PostgreSQL's server is not installed (package postgresql)";
+  }
+  std::unique_ptr<SqlConnection> connect() const
+  {
+    return std::make_unique<SqlConnection>(GetParam() == "sqlite" ? makeSqliteDialect(connection_, JournalMode::WAL)
+                                                                  : makePostgresqlDialect(connection_));
+  }
+  void execute(const std::string& statement) const
+  {
+    connect()->write("test", [&](soci::session& sql) { sql << statement; });
+  }
+  int version() const
+  {
+    int version = -1;
+    connect()->read("test",
+                    [&](soci::session& sql) { sql << "SELECT version FROM store_schema", soci::into(version); });
+    return version;
+  }
+
+  TemporaryFolder folder_;
+  std::string connection_;
+};
+INSTANTIATE_TEST_SUITE_P(Backends, StoreSchema, ::testing::Values("sqlite", "postgresql"),
+                         [](const auto& backend) { return backend.param; });
+
+TEST_P(StoreSchema, MigratesAVersionZeroStore)
+{
+  execute("CREATE TABLE store_schema (version INTEGER NOT NULL)");
+  execute("INSERT INTO store_schema (version) VALUES (0)");
+  const std::unique_ptr<SessionStore> store = openSqlStore(connection_);
+  store->createSession(makeSession("a"));
+  store->addKeyframe("a", makeKeyframe(0));
+  EXPECT_EQ(version(), static_cast<int>(storeMigrations().size()));
+}
+
+TEST_P(StoreSchema, MigrationsKeepTheData)
+{
+  {
+    const std::unique_ptr<SessionStore> store = openSqlStore(connection_);
+    store->createSession(makeSession("a"));
+    store->addKeyframe("a", makeKeyframe(0));
+  }
+  std::vector<Migration> migrations = storeMigrations();
+  migrations.emplace_back([](soci::session& sql, const SqlDialect&)
+                          { sql << "ALTER TABLE sessions ADD COLUMN operator TEXT NOT NULL DEFAULT 'nobody'"; });
+  const std::unique_ptr<SqlConnection> connection = connect();
+  migrate(*connection, migrations);
+  migrate(*connection, migrations);  // a second time there is nothing to do
+  EXPECT_EQ(version(), static_cast<int>(migrations.size()));
+  std::string name;
+  int keyframes = 0;
+  connection->read("test",
+                   [&](soci::session& sql)
+                   {
+                     sql << "SELECT operator FROM sessions WHERE session_id = 'a'", soci::into(name);
+                     sql << "SELECT COUNT(*) FROM keyframe_images", soci::into(keyframes);
+                   });
+  EXPECT_EQ(name, "nobody");
+  EXPECT_EQ(keyframes, 1);
+}
+
+TEST_P(StoreSchema, AFailedMigrationChangesNothing)
+{
+  openSqlStore(connection_)->createSession(makeSession("a"));
+  std::vector<Migration> migrations = storeMigrations();
+  migrations.emplace_back([](soci::session& sql, const SqlDialect&) { sql << "DROP TABLE keyframe_masks"; });
+  migrations.emplace_back([](soci::session& sql, const SqlDialect&) { sql << "ALTER TABLE no_such_table ADD x TEXT"; });
+  const std::unique_ptr<SqlConnection> connection = connect();
+  EXPECT_EQ(statusOf([&] { migrate(*connection, migrations); }).code, StatusCode::STORAGE);
+  openSqlStore(connection_)->addKeyframe("a", makeKeyframe(0));
+}
+
+TEST_P(StoreSchema, RefusesANewerStore)
+{
+  openSqlStore(connection_)->createSession(makeSession("a"));
+  const int current = static_cast<int>(storeMigrations().size());
+  execute("UPDATE store_schema SET version = 97");
+  const base::Status status = statusOf([&] { openSqlStore(connection_); });
+  EXPECT_EQ(status.code, StatusCode::STORAGE);
+  EXPECT_NE(status.message.find("97"), std::string::npos) << status.message;
+  EXPECT_NE(status.message.find("up to " + std::to_string(current)), std::string::npos) << status.message;
+  EXPECT_NE(status.message.find("update object_modelling"), std::string::npos) << status.message;
+  EXPECT_EQ(version(), 97);
+}
+
+TEST_P(StoreSchema, RefusesAnotherProgramsDatabase)
+{
+  execute("CREATE TABLE invoices (id INTEGER)");
+  const base::Status status = statusOf([&] { openSqlStore(connection_); });
+  EXPECT_EQ(status.code, StatusCode::BAD_INPUT);
+  EXPECT_NE(status.message.find("invoices"), std::string::npos) << status.message;
+}
+
+}  // namespace object_modelling::keyframes
