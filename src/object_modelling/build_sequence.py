@@ -1,0 +1,66 @@
+"""Order of the stages that make an object from stored sessions; free of ROS.
+
+`jobs` offers list_sessions() and session(id) (objects with session_id, object_id, keyframe_count) and the long jobs
+refine(ids, progress), segment(id, progress), align(ids, progress) -> placements and
+build(object_id, name, placements, replace, progress) -> built. All raise Failure.
+"""
+from object_modelling.outcome import Code, Failure, check_id
+
+
+def choose_sessions(jobs, object_id, session_ids, last_session_id):
+    """Ids of the sessions to build from; NOT_FOUND and FAILED_PRECONDITION name what is missing."""
+    check_id("object id", object_id)
+    if session_ids:
+        repeated = {session_id for session_id in session_ids if session_ids.count(session_id) > 1}
+        if repeated:
+            raise Failure(Code.INVALID_ARGUMENT, "sessions named twice: %s" % ", ".join(sorted(repeated)))
+        sessions = [jobs.session(session_id) for session_id in session_ids]
+    else:
+        sessions = _sessions_of(jobs, object_id, last_session_id)
+    empty = [session.session_id for session in sessions if session.keyframe_count == 0]
+    if empty:
+        raise Failure(
+            Code.FAILED_PRECONDITION,
+            "session '%s' has no keyframes: record it again with the object in view, or discard_session" % empty[0],
+        )
+    return [session.session_id for session in sessions]
+
+
+def _sessions_of(jobs, object_id, last_session_id):
+    stored = jobs.list_sessions()
+    own = [session for session in stored if session.object_id == object_id]
+    if own:
+        return own
+    last = [session for session in stored if session.session_id == last_session_id and not session.object_id]
+    if last:
+        return last
+    names = ", ".join(session.session_id for session in stored) or "none"
+    raise Failure(
+        Code.NOT_FOUND,
+        "object '%s' has no session: record one with start_session and stop_session, or name the sessions "
+        "(stored: %s)" % (object_id, names),
+    )
+
+
+def build(jobs, object_id, name, session_ids, replace, progress, clock):
+    """Runs all stages; returns (built, [(stage, seconds)]). progress(stage, step, done, total) may raise Failure to
+    cancel: a stage then leaves the store as it was."""
+    times = []
+
+    def run(stage, job):
+        progress(stage, "", 0, 0)
+        start = clock()
+        result = job(lambda step, done, total: progress(stage, step, done, total))
+        times.append((stage, clock() - start))
+        return result
+
+    def segment_all(report):
+        for index, session_id in enumerate(session_ids):
+            prefix = "" if len(session_ids) == 1 else "%d of %d, " % (index + 1, len(session_ids))
+            jobs.segment(session_id, lambda step, done, total: report(prefix + step, done, total))
+
+    run("refine", lambda report: jobs.refine(session_ids, report))
+    run("segment", segment_all)
+    placements = run("align", lambda report: jobs.align(session_ids, report))
+    built = run("build", lambda report: jobs.build(object_id, name, placements, replace, report))
+    return built, times

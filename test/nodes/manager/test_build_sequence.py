@@ -1,0 +1,130 @@
+import collections
+import unittest
+
+from object_modelling import build_sequence
+from object_modelling.outcome import Code, Failure
+
+Session = collections.namedtuple("Session", "session_id object_id keyframe_count")
+
+
+class FakeJobs:
+    """Records what is called; `fails` names the stage that raises."""
+
+    def __init__(self, sessions=(), fails=None):
+        self.sessions = list(sessions)
+        self.fails = fails
+        self.calls = []
+
+    def list_sessions(self):
+        return self.sessions
+
+    def session(self, session_id):
+        for session in self.sessions:
+            if session.session_id == session_id:
+                return session
+        raise Failure(Code.NOT_FOUND, "session '%s' does not exist" % session_id)
+
+    def _run(self, stage, what, progress, result=None):
+        self.calls.append((stage, what))
+        progress("step", 1, 2)
+        if self.fails == stage:
+            raise Failure(Code.NO_RESULT, stage + " failed")
+        return result
+
+    def refine(self, ids, progress):
+        self._run("refine", tuple(ids), progress)
+
+    def segment(self, session_id, progress):
+        self._run("segment", session_id, progress)
+
+    def align(self, ids, progress):
+        return self._run("align", tuple(ids), progress, ["placement of " + name for name in ids])
+
+    def build(self, object_id, name, placements, replace, progress):
+        return self._run("build", (object_id, name, tuple(placements), replace), progress, "built")
+
+
+class ChooseSessionsTest(unittest.TestCase):
+    def setUp(self):
+        self.jobs = FakeJobs([Session("a", "mug", 5), Session("b", "mug", 6), Session("c", "", 7), Session("d", "cup", 0)])
+
+    def choose(self, object_id, session_ids=(), last=""):
+        return build_sequence.choose_sessions(self.jobs, object_id, list(session_ids), last)
+
+    def failure(self, code, *arguments):
+        with self.assertRaises(Failure) as caught:
+            self.choose(*arguments)
+        self.assertEqual(caught.exception.code, code)
+        return caught.exception.message
+
+    def test_named_sessions_in_their_order(self):
+        self.assertEqual(self.choose("mug", ["c", "a"]), ["c", "a"])
+
+    def test_all_sessions_of_the_object(self):
+        self.assertEqual(self.choose("mug"), ["a", "b"])
+
+    def test_last_session_if_it_names_no_object(self):
+        self.assertEqual(self.choose("plate", last="c"), ["c"])
+
+    def test_last_session_of_another_object_is_not_taken(self):
+        self.assertIn("stored: a, b, c, d", self.failure(Code.NOT_FOUND, "plate", (), "a"))
+
+    def test_object_without_session(self):
+        self.jobs.sessions = []
+        self.assertIn("stored: none", self.failure(Code.NOT_FOUND, "plate"))
+
+    def test_unknown_session(self):
+        self.assertIn("'x'", self.failure(Code.NOT_FOUND, "mug", ["a", "x"]))
+
+    def test_session_twice(self):
+        self.assertIn("twice: a", self.failure(Code.INVALID_ARGUMENT, "mug", ["a", "b", "a"]))
+
+    def test_session_without_keyframes(self):
+        self.assertIn("'d'", self.failure(Code.FAILED_PRECONDITION, "cup"))
+
+    def test_object_ids(self):
+        for bad in ("", "a/b", ".hidden", "-x", "x" * 65, "mug\n", "m g"):
+            self.failure(Code.INVALID_ARGUMENT, bad)
+
+
+class BuildTest(unittest.TestCase):
+    def build(self, jobs, progress=lambda stage, step, done, total: None):
+        ticks = iter(range(100))
+        return build_sequence.build(jobs, "mug", "Mug", ["a", "b"], True, progress, lambda: next(ticks))
+
+    def test_order_and_times(self):
+        jobs = FakeJobs()
+        built, times = self.build(jobs)
+        self.assertEqual(built, "built")
+        self.assertEqual(times, [("refine", 1), ("segment", 1), ("align", 1), ("build", 1)])
+        self.assertEqual(
+            jobs.calls,
+            [("refine", ("a", "b")), ("segment", "a"), ("segment", "b"), ("align", ("a", "b")),
+             ("build", ("mug", "Mug", ("placement of a", "placement of b"), True))])
+
+    def test_progress(self):
+        reports = []
+        self.build(FakeJobs(), lambda *report: reports.append(report))
+        self.assertIn(("segment", "2 of 2, step", 1, 2), reports)
+        self.assertEqual(reports[0], ("refine", "", 0, 0))
+
+    def test_a_failed_stage_is_the_last(self):
+        for stage in ("refine", "segment", "align", "build"):
+            jobs = FakeJobs(fails=stage)
+            with self.assertRaises(Failure):
+                self.build(jobs)
+            self.assertEqual(jobs.calls[-1][0], stage)
+
+    def test_cancel(self):
+        def cancel(stage, *_):
+            if stage == "align":
+                raise Failure(Code.CANCELLED, "cancelled")
+
+        jobs = FakeJobs()
+        with self.assertRaises(Failure):
+            self.build(jobs, cancel)
+        self.assertNotIn("build", [call[0] for call in jobs.calls])
+
+
+if __name__ == "__main__":
+    unittest.main()
