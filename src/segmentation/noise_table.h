@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace object_modelling::segmentation
 {
@@ -18,6 +21,12 @@ public:
     const int column = static_cast<int>(cos_theta * COLUMNS);
     return sigma_[(row < 0 ? 0 : row >= ROWS ? ROWS - 1 : row) * COLUMNS +
                   (column < 0 ? 0 : column >= COLUMNS ? COLUMNS - 1 : column)];
+  }
+  /// Standard deviation of a measured point along the normal `n` (unit length) of the surface that it lies on.
+  float sigmaAlong_m(const Eigen::Vector3f& n, const Eigen::Vector3f& p_camera) const
+  {
+    const float projection = std::abs(n.dot(p_camera));
+    return sigma_m(p_camera.z(), projection / p_camera.norm()) * projection / p_camera.z();
   }
 
 private:

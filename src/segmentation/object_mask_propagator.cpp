@@ -132,12 +132,14 @@ private:
     }
     geometry::Plane plane_camera = supportIn(keyframe);
     view.support = refineSupport(frame, plane_camera, area, {});
-    if (view.support)
-      plane_camera = view.support->plane_camera;
-
     const SceneSegmenterOptions& segmenter = options_.segmenter;
     HeightLimits limits{ segmenter.min_height_m, segmenter.height_noise_sigmas, segmenter.max_height_m,
                          std::numeric_limits<double>::infinity() };
+    if (view.support)
+    {
+      plane_camera = view.support->plane_camera;
+      limits.noise_sigmas *= view.support->noise_scale;
+    }
     const double area_ratio = frame.depth_m.total() / (640.0 * 480.0);
     const int min_piece_px = std::max(1, static_cast<int>(segmenter.min_cluster_px * area_ratio / 10));
     const cv::Mat above = pixelsAbove(frame, plane_camera, limits, segmenter.cluster_depth_step_ratio, area);

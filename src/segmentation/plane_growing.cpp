@@ -11,6 +11,7 @@ namespace object_modelling::segmentation
 namespace
 {
 constexpr int CELL_PX = 8;
+constexpr float ROUGH_NORMAL_COS = 0.766F;  // 40 deg
 constexpr std::int16_t NO_PLANE = -1;
 
 struct Seed
@@ -38,7 +39,15 @@ public:
     for (const Seed& seed : findSeeds())
       growFrom(seed);
     joinCoplanar();
-    return sorted();
+    GrownPlanes result = sorted();
+    for (std::size_t i = 0; i < result.planes.size(); ++i)
+      extend(static_cast<std::int16_t>(i), &result.planes[i]);
+    planes_ = std::move(result.planes);
+    joinCoplanar();
+    result = sorted();
+    for (std::size_t i = 0; i < result.planes.size(); ++i)
+      result.planes[i].noise_scale = noiseScale(static_cast<std::int16_t>(i), result.planes[i].plane);
+    return result;
   }
 
 private:
@@ -47,11 +56,12 @@ private:
   {
     return Eigen::Map<const Eigen::Vector3f>(image_.normals.at<cv::Vec3f>(v, u).val);
   }
-  /// Standard deviation of the point along its normal.
-  static float sigmaAlongNormal_m(const Eigen::Vector3f& p, const Eigen::Vector3f& n)
+  /// Standard deviation of the point along its normal: noise and distortion.
+  float sigmaAlongNormal_m(const Eigen::Vector3f& p, const Eigen::Vector3f& n) const
   {
-    const float projection = std::abs(n.dot(p));  // z * (n . ray)
-    return NoiseTable::instance().sigma_m(p.z(), projection / p.norm()) * projection / p.z();
+    const float noise_m = NoiseTable::instance().sigmaAlong_m(n, p);
+    const float distortion_m = static_cast<float>(options_.distortion_ratio) * std::abs(n.dot(p));
+    return std::sqrt(noise_m * noise_m + distortion_m * distortion_m);
   }
 
   std::vector<Seed> findSeeds() const
@@ -83,19 +93,47 @@ private:
     return seeds;
   }
 
+  /// The region that is growing.
+  struct Region
+  {
+    std::int16_t label;
+    Eigen::Vector3f n;
+    float offset_m;
+    float min_normal_cos;
+    PlaneMoments* moments;
+    void setPlane(const geometry::Plane& plane)
+    {
+      n = plane.normal.cast<float>();
+      offset_m = static_cast<float>(plane.offset_m);
+    }
+  };
+
   /// Puts the pixel into the region if it fits the region's plane.
-  void tryAdd(int u, int v, std::int16_t label, const Eigen::Vector3f& n, float offset_m, PlaneMoments* moments)
+  void tryAdd(int u, int v, const Region& region)
   {
     std::int16_t& pixel_label = labels_.at<std::int16_t>(v, u);
-    if (pixel_label != NO_PLANE || !hasNormal(u, v) || !(normal(u, v).dot(n) >= cos_angle_))
+    if (pixel_label != NO_PLANE || !hasNormal(u, v) || !(normal(u, v).dot(region.n) >= region.min_normal_cos))
       return;
     const Eigen::Vector3f p = image_.frame.point(u, v);
-    const float sigma_m = sigmaAlongNormal_m(p, n);
-    if (!(std::abs(n.dot(p) + offset_m) <= static_cast<float>(options_.distance_sigmas) * sigma_m))
+    const float sigma_m = sigmaAlongNormal_m(p, region.n);
+    if (!(std::abs(region.n.dot(p) + region.offset_m) <= static_cast<float>(options_.distance_sigmas) * sigma_m))
       return;
-    pixel_label = label;
-    moments->add(p.cast<double>(), 1.0 / (static_cast<double>(sigma_m) * sigma_m));
+    pixel_label = region.label;
+    region.moments->add(p.cast<double>(), 1.0 / (static_cast<double>(sigma_m) * sigma_m));
     queue_.push_back(v * width_ + u);
+  }
+
+  void tryNeighbours(int index, const Region& region)
+  {
+    const int u = index % width_, v = index / width_;
+    if (u > 0)
+      tryAdd(u - 1, v, region);
+    if (u + 1 < width_)
+      tryAdd(u + 1, v, region);
+    if (v > 0)
+      tryAdd(u, v - 1, region);
+    if (v + 1 < height_)
+      tryAdd(u, v + 1, region);
   }
 
   void growFrom(const Seed& seed)
@@ -108,31 +146,21 @@ private:
     if (taken > CELL_PX * CELL_PX / 4 || !seed.moments.fit(Eigen::Vector3d::Zero(), &grown.plane))
       return;
 
-    const auto label = static_cast<std::int16_t>(planes_.size());
+    Region region{ static_cast<std::int16_t>(planes_.size()), {}, 0, cos_angle_, &grown.moments };
+    region.setPlane(grown.plane);
     queue_.clear();
-    Eigen::Vector3f n = grown.plane.normal.cast<float>();
-    float offset_m = static_cast<float>(grown.plane.offset_m);
     for (int y = seed.v; y < seed.v + CELL_PX; ++y)
       for (int x = seed.u; x < seed.u + CELL_PX; ++x)
-        tryAdd(x, y, label, n, offset_m, &grown.moments);
+        tryAdd(x, y, region);
     int next_refit = 2 * CELL_PX * CELL_PX;
     for (std::size_t head = 0; head < queue_.size(); ++head)
     {
       if (grown.moments.count >= next_refit && grown.moments.fit(Eigen::Vector3d::Zero(), &grown.plane))
       {
-        n = grown.plane.normal.cast<float>();
-        offset_m = static_cast<float>(grown.plane.offset_m);
+        region.setPlane(grown.plane);
         next_refit = 2 * grown.moments.count;
       }
-      const int u = queue_[head] % width_, v = queue_[head] / width_;
-      if (u > 0)
-        tryAdd(u - 1, v, label, n, offset_m, &grown.moments);
-      if (u + 1 < width_)
-        tryAdd(u + 1, v, label, n, offset_m, &grown.moments);
-      if (v > 0)
-        tryAdd(u, v - 1, label, n, offset_m, &grown.moments);
-      if (v + 1 < height_)
-        tryAdd(u, v + 1, label, n, offset_m, &grown.moments);
+      tryNeighbours(queue_[head], region);
     }
     if (grown.moments.count >= options_.min_pixels && grown.moments.fit(Eigen::Vector3d::Zero(), &grown.plane))
     {
@@ -141,6 +169,39 @@ private:
     }
     for (const int index : queue_)
       labels_.at<std::int16_t>(index / width_, index % width_) = NO_PLANE;
+  }
+
+  /// Grows a finished region over pixels whose distance fits but whose normal was too rough.
+  void extend(std::int16_t label, GrownPlane* grown)
+  {
+    Region region{ label, {}, 0, ROUGH_NORMAL_COS, &grown->moments };
+    region.setPlane(grown->plane);
+    queue_.clear();
+    for (int index = 0; index < width_ * height_; ++index)
+      if (labels_.at<std::int16_t>(index / width_, index % width_) == label)
+        queue_.push_back(index);
+    for (std::size_t head = 0; head < queue_.size(); ++head)
+      tryNeighbours(queue_[head], region);
+    grown->moments.fit(Eigen::Vector3d::Zero(), &grown->plane);
+  }
+
+  /// Root mean square of the region's distances to its plane, in sigmas of the noise model alone.
+  double noiseScale(std::int16_t label, const geometry::Plane& plane) const
+  {
+    const Eigen::Vector3f n = plane.normal.cast<float>();
+    const auto offset_m = static_cast<float>(plane.offset_m);
+    double sum = 0;
+    int count = 0;
+    for (int v = 0; v < height_; ++v)
+      for (int u = 0; u < width_; ++u)
+        if (labels_.at<std::int16_t>(v, u) == label)
+        {
+          const Eigen::Vector3f p = image_.frame.point(u, v);
+          const double residual = (n.dot(p) + offset_m) / NoiseTable::instance().sigmaAlong_m(n, p);
+          sum += residual * residual;
+          ++count;
+        }
+    return count > 0 ? std::max(1.0, std::sqrt(sum / count)) : 1;
   }
 
   /// Whether one plane explains both regions about as well as their own planes do.
@@ -201,7 +262,7 @@ private:
         if (row[u] != NO_PLANE)
           row[u] = rank[joined_into_[row[u]]];
     }
-    result.labels = labels_;
+    result.labels = labels_;  // shared: labels stay valid as planes are extended and joined again
     return result;
   }
 
@@ -219,7 +280,7 @@ private:
 
 WorkingImage makeWorkingImage(const rgbd::Frame& frame, const cv::Mat& ignored)
 {
-  constexpr double WORKING_PIXELS = 320.0 * 240.0;
+  constexpr double WORKING_PIXELS = 213.0 * 160.0;
   WorkingImage image;
   const int width = frame.depth_m.cols, height = frame.depth_m.rows;
   image.step = std::max(1, static_cast<int>(std::lround(std::sqrt(width * height / WORKING_PIXELS))));

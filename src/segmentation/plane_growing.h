@@ -9,7 +9,7 @@
 
 namespace object_modelling::segmentation
 {
-/// A frame thinned out to about 320x240, with normals: enough to find planes, a quarter of the work. Pixel (u, v) is
+/// A frame thinned out to about 213x160, with normals: enough to find planes, a ninth of the work. Pixel (u, v) is
 /// pixel (u * step, v * step) of the frame.
 struct WorkingImage
 {
@@ -24,6 +24,7 @@ struct PlaneGrowingOptions
 {
   double angle_rad = 0.17453293;
   double distance_sigmas = 3.0;
+  double distortion_ratio = 0.003;  ///< of depth: what smooth distortion bends a plane by, as a standard deviation
   int min_pixels = 200;  ///< of the working image
 };
 
@@ -31,6 +32,7 @@ struct GrownPlane
 {
   geometry::Plane plane;  ///< normal towards the camera
   PlaneMoments moments;
+  double noise_scale = 1;  ///< at least 1: how much rougher the plane is measured than the noise model says
 };
 
 struct GrownPlanes
@@ -40,7 +42,8 @@ struct GrownPlanes
 };
 
 /// Region growing from the flattest 8x8 cells, in order of their flatness, with refits at every doubling; regions
-/// of one plane (a table behind objects) are then joined. Linear in the number of pixels.
+/// of one plane (a table behind objects) are then joined, and extended over pixels that lie in the plane but have rough
+/// normals, as sensors with correlated noise give. Linear in the number of pixels.
 GrownPlanes growPlanes(const WorkingImage& image, const PlaneGrowingOptions& options);
 
 }  // namespace object_modelling::segmentation

@@ -18,32 +18,36 @@ constexpr std::size_t MAX_SUPPORTS_TRIED = 3;
 constexpr double EXTENT_MARGIN_M = 0.02;
 constexpr double MIN_CARRIED_RATIO = 0.5;
 
-/// All pixels of the frame that lie in the plane, next to working pixels that grew into it.
-SupportedPlane fullPlane(const rgbd::Frame& frame, const WorkingImage& image, const GrownPlanes& planes, int index,
-                         double distance_sigmas)
+/// The grown planes at full resolution: all pixels that lie in a plane, next to working pixels that grew into it.
+std::vector<SupportedPlane> fullPlanes(const rgbd::Frame& frame, const WorkingImage& image, const GrownPlanes& planes,
+                                       double distance_sigmas)
 {
   const NoiseTable& noise = NoiseTable::instance();
-  SupportedPlane result;
-  result.plane_camera = planes.planes[index].plane;
-  result.mask = cv::Mat::zeros(frame.depth_m.size(), CV_8UC1);
-  const auto n = result.plane_camera.normal.cast<float>().eval();
-  const auto offset_m = static_cast<float>(result.plane_camera.offset_m);
+  const auto sigmas = static_cast<float>(distance_sigmas);
+  std::vector<SupportedPlane> result;
+  std::vector<Eigen::Vector4f> coefficients;
+  for (const GrownPlane& grown : planes.planes)
+  {
+    result.push_back({ grown.plane, 0, cv::Mat::zeros(frame.depth_m.size(), CV_8UC1) });
+    coefficients.emplace_back();
+    coefficients.back() << grown.plane.normal.cast<float>(), static_cast<float>(grown.plane.offset_m);
+  }
   for (int v = 0; v < frame.depth_m.rows; ++v)
   {
     const auto* grown = planes.labels.ptr<std::int16_t>(v / image.step);
-    auto* out = result.mask.ptr<std::uint8_t>(v);
     for (int u = 0; u < frame.depth_m.cols; ++u)
     {
-      if (grown[u / image.step] != index)
+      const int index = grown[u / image.step];
+      if (index < 0)
         continue;
       const Eigen::Vector3f p = frame.point(u, v);
-      const float projection = std::abs(n.dot(p));
-      const float sigma_m = noise.sigma_m(p.z(), projection / p.norm()) * projection / p.z();
-      if (std::abs(n.dot(p) + offset_m) <= static_cast<float>(distance_sigmas) * sigma_m)
-      {
-        out[u] = 255;
-        ++result.pixel_count;
-      }
+      const Eigen::Vector4f& plane = coefficients[index];
+      const Eigen::Vector3f n = plane.head<3>();
+      const float limit_m = sigmas * static_cast<float>(planes.planes[index].noise_scale) * noise.sigmaAlong_m(n, p);
+      if (!(std::abs(n.dot(p) + plane[3]) <= limit_m))
+        continue;
+      result[index].mask.at<std::uint8_t>(v, u) = 255;
+      ++result[index].pixel_count;
     }
   }
   return result;
@@ -82,7 +86,8 @@ std::vector<Hypothesis> findHypotheses(const rgbd::Frame& frame, const WorkingIm
                                        int support, const SceneSegmenterOptions& options)
 {
   const geometry::Plane& plane = planes.planes[support].plane;
-  const HeightLimits limits{ options.min_height_m, options.height_noise_sigmas, options.max_height_m,
+  const HeightLimits limits{ options.min_height_m,
+                             options.height_noise_sigmas * planes.planes[support].noise_scale, options.max_height_m,
                              options.max_distance_m };
   const double area_ratio = frame.depth_m.total() / (640.0 * 480.0);
   const int min_pixels = std::max(1, static_cast<int>(std::lround(options.min_cluster_px * area_ratio)));
@@ -162,7 +167,9 @@ SceneSegmentation SceneSegmenter::segment(const rgbd::Frame& frame) const
     result.status = { base::StatusCode::NO_RESULT, "no plane: no pixel of the frame has depth" };
     return result;
   }
-  PlaneGrowingOptions growing{ options_.plane_angle_rad, options_.plane_distance_sigmas, 0 };
+  PlaneGrowingOptions growing;
+  growing.angle_rad = options_.plane_angle_rad;
+  growing.distance_sigmas = options_.plane_distance_sigmas;
   growing.min_pixels = std::max(30, static_cast<int>(std::lround(options_.min_plane_ratio * with_depth)));
   const GrownPlanes planes = growPlanes(image, growing);
   if (planes.planes.empty())
@@ -172,9 +179,7 @@ SceneSegmentation SceneSegmenter::segment(const rgbd::Frame& frame) const
                           " of the pixels with depth; let the camera see more of the table" };
     return result;
   }
-  for (std::size_t i = 0; i < planes.planes.size(); ++i)
-    result.planes.push_back(
-        fullPlane(frame, image, planes, static_cast<int>(i), options_.plane_distance_sigmas));
+  result.planes = fullPlanes(frame, image, planes, options_.plane_distance_sigmas);
 
   const std::vector<int> ranked = rankSupports(image, planes, options_.max_height_m);
   result.support_plane = ranked.front();

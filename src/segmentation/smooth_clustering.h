@@ -11,7 +11,7 @@ namespace object_modelling::segmentation
 {
 struct HeightLimits
 {
-  double min_m = 0.004;
+  double min_m = 0.003;
   double noise_sigmas = 2.0;  ///< added to min_m: so many axial sigmas, seen along the plane's normal
   double max_m = 0.6;
   double max_distance_m = 2.0;  ///< along the optical axis

@@ -57,8 +57,8 @@ std::optional<LocalSupport> refineSupport(const rgbd::Frame& frame, const geomet
                                           const cv::Rect& area, const cv::Mat& object)
 {
   constexpr int STRIDE = 2;
-  LocalSupport support{ known_camera, {} };
-  for (const double gate_m : { GATE_M, GATE_M / 4 })
+  LocalSupport support{ known_camera, {}, 1 };
+  for (const double gate_m : { GATE_M, GATE_M / 2 })
   {
     PlaneMoments moments;
     const auto n = support.plane_camera.normal.cast<float>().eval();
@@ -70,8 +70,7 @@ std::optional<LocalSupport> refineSupport(const rgbd::Frame& frame, const geomet
         if (!std::isfinite(z) || (!object.empty() && object.at<std::uint8_t>(v, u) != 0))
           continue;
         const Eigen::Vector3f p = frame.point(u, v);
-        const float projection = std::abs(n.dot(p));
-        const float sigma_m = NoiseTable::instance().sigma_m(z, projection / p.norm()) * projection / z;
+        const float sigma_m = NoiseTable::instance().sigmaAlong_m(n, p);
         if (std::abs(n.dot(p) + offset_m) <= static_cast<float>(gate_m) + 2 * sigma_m)
           moments.add(p.cast<double>(), 1.0 / (static_cast<double>(sigma_m) * sigma_m));
       }
@@ -79,6 +78,7 @@ std::optional<LocalSupport> refineSupport(const rgbd::Frame& frame, const geomet
         support.plane_camera.normal.dot(known_camera.normal) < MAX_TILT_COS)
       return std::nullopt;
     support.moments = moments;
+    support.noise_scale = std::max(1.0, std::sqrt(moments.meanSquare(support.plane_camera)));
   }
   return support;
 }
@@ -105,7 +105,7 @@ std::optional<LocalSupport> findSupportAround(const rgbd::Frame& frame, const cv
   {
     const std::vector<double> heights_m = heightsOf(frame, object_mask, rect, grown.plane);
     if (!heights_m.empty() && rests(heights_m, grown.moments.mean().z()))
-      return LocalSupport{ grown.plane, grown.moments };
+      return LocalSupport{ grown.plane, grown.moments, grown.noise_scale };
   }
   return std::nullopt;
 }

@@ -17,7 +17,7 @@ struct SceneSegmenterOptions
   double plane_angle_rad = 0.17453293;  ///< 10 deg: normals of one plane agree within this
   double plane_distance_sigmas = 3.0;   ///< points of a plane lie within so many axial sigmas of it
   double min_plane_ratio = 0.02;        ///< of the pixels with depth; smaller ones are no support
-  double min_height_m = 0.004;          ///< above the support plane, plus the noise: what is lower is the table
+  double min_height_m = 0.003;          ///< above the support plane, plus the noise: what is lower is the table
   double height_noise_sigmas = 2.0;     ///< the noise meant by min_height_m: axial sigmas along the plane's normal
   double max_height_m = 0.6;
   double max_distance_m = 2.0;              ///< hypotheses further from the camera are background
