@@ -1,0 +1,150 @@
+#include "colouring.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+#include "object_modelling/rgbd/sensor_noise_model.h"
+
+namespace object_modelling::fusion
+{
+namespace
+{
+constexpr int BEST_VIEWS = 8;             ///< per surfel; more blur the print
+constexpr float MIN_COSINE = 0.3f;        ///< flatter sights show smeared colour
+constexpr float FULL_RIM_DISTANCE = 4.f;  ///< px from the mask's rim from which on colour is trusted in full
+constexpr int GAIN_ITERATIONS = 3;
+
+struct Sample
+{
+  int view = -1;
+  float weight = 0;
+  Eigen::Vector3f rgb = Eigen::Vector3f::Zero();
+};
+
+Eigen::Vector3f bilinearRgb(const cv::Mat& bgr, float u, float v)
+{
+  const int x = std::clamp(static_cast<int>(std::floor(u)), 0, bgr.cols - 2);
+  const int y = std::clamp(static_cast<int>(std::floor(v)), 0, bgr.rows - 2);
+  const float a = std::clamp(u - x, 0.f, 1.f), b = std::clamp(v - y, 0.f, 1.f);
+  Eigen::Vector3f rgb;
+  for (int c = 0; c < 3; ++c)
+  {
+    const auto at = [&](int row, int column) { return static_cast<float>(bgr.at<cv::Vec3b>(row, column)[2 - c]); };
+    rgb[c] = (1 - b) * ((1 - a) * at(y, x) + a * at(y, x + 1)) + b * ((1 - a) * at(y + 1, x) + a * at(y + 1, x + 1));
+  }
+  return rgb;
+}
+
+std::vector<Sample> bestSamples(const std::vector<View>& views, const std::vector<cv::Mat>& rim_distances_px,
+                                const Surfel& surfel, double consistency_sigmas)
+{
+  std::vector<Sample> samples;
+  for (int i = 0; i < static_cast<int>(views.size()); ++i)
+  {
+    const View& view = views[i];
+    if (rim_distances_px[i].empty())
+      continue;
+    const Eigen::Vector3f to_camera = view.p_session_camera - surfel.point;
+    const float cosine = surfel.normal.dot(to_camera) / to_camera.norm();
+    if (cosine < MIN_COSINE)
+      continue;
+    const Projection at = project(view, surfel.point);
+    if (!at.inside)
+      continue;
+    const double tolerance_m = consistency_sigmas * rgbd::axialSigma_m(at.z_m, std::acos(std::min(cosine, 1.f)));
+    const float rim_px = rim_distances_px[i].at<float>(at.row, at.column);
+    if (!(std::abs(view.frame->depth_m.at<float>(at.row, at.column) - at.z_m) <= tolerance_m) || rim_px <= 0)
+      continue;
+    Sample sample;
+    sample.view = i;
+    sample.weight = cosine * cosine / (at.z_m * at.z_m) * std::min(1.f, rim_px / FULL_RIM_DISTANCE);
+    sample.rgb = bilinearRgb(view.frame->color_bgr, at.u_px, at.v_px);
+    samples.push_back(sample);
+  }
+  std::stable_sort(samples.begin(), samples.end(),
+                   [](const Sample& a, const Sample& b) { return a.weight > b.weight; });
+  if (samples.size() > BEST_VIEWS)
+    samples.resize(BEST_VIEWS);
+  return samples;
+}
+
+Eigen::Vector3f mean(const std::vector<Sample>& samples, const std::vector<Eigen::Vector3f>& gains)
+{
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  float weight = 0;
+  for (const Sample& sample : samples)
+  {
+    sum += sample.weight * gains[sample.view].cwiseProduct(sample.rgb);
+    weight += sample.weight;
+  }
+  return weight > 0 ? Eigen::Vector3f(sum / weight) : Eigen::Vector3f::Zero();
+}
+
+/// Gain per view and channel that brings its samples to the mean of all views; their geometric mean stays 1.
+std::vector<Eigen::Vector3f> estimateGains(const std::vector<std::vector<Sample>>& samples, std::size_t view_count)
+{
+  std::vector<Eigen::Vector3f> gains(view_count, Eigen::Vector3f::Ones());
+  for (int iteration = 0; iteration < GAIN_ITERATIONS; ++iteration)
+  {
+    std::vector<Eigen::Vector3d> mean_sum(view_count, Eigen::Vector3d::Zero());
+    std::vector<Eigen::Vector3d> own_sum(view_count, Eigen::Vector3d::Zero());
+    for (const std::vector<Sample>& of_surfel : samples)
+    {
+      const Eigen::Vector3f common = mean(of_surfel, gains);
+      for (const Sample& sample : of_surfel)
+      {
+        mean_sum[sample.view] += (sample.weight * common).cast<double>();
+        own_sum[sample.view] += (sample.weight * sample.rgb).cast<double>();
+      }
+    }
+    Eigen::Vector3d log_sum = Eigen::Vector3d::Zero();
+    int used = 0;
+    for (std::size_t i = 0; i < view_count; ++i)
+    {
+      if (!(mean_sum[i].minCoeff() > 0 && own_sum[i].minCoeff() > 0))
+        continue;
+      gains[i] = mean_sum[i].cwiseQuotient(own_sum[i]).cast<float>();
+      log_sum += gains[i].cast<double>().array().log().matrix();
+      ++used;
+    }
+    if (used == 0)
+      break;
+    const Eigen::Vector3f common_gain = (log_sum / used).array().exp().matrix().cast<float>();
+    for (Eigen::Vector3f& gain : gains)
+      gain = gain.cwiseQuotient(common_gain);
+  }
+  return gains;
+}
+
+}  // namespace
+
+std::vector<Eigen::Matrix<std::uint8_t, 3, 1>> colourSurfels(const std::vector<View>& views,
+                                                             const std::vector<Surfel>& surfels,
+                                                             double consistency_sigmas)
+{
+  std::vector<cv::Mat> rim_distances_px(views.size());
+#pragma omp parallel for schedule(dynamic)
+  for (int i = 0; i < static_cast<int>(views.size()); ++i)
+  {
+    if (hasObject(*views[i].frame) && !views[i].frame->color_bgr.empty())
+      cv::distanceTransform(views[i].frame->object_mask, rim_distances_px[i], cv::DIST_L2, 3);
+  }
+  std::vector<std::vector<Sample>> samples(surfels.size());
+#pragma omp parallel for schedule(dynamic, 256)
+  for (std::int64_t i = 0; i < static_cast<std::int64_t>(surfels.size()); ++i)
+    samples[i] = bestSamples(views, rim_distances_px, surfels[i], consistency_sigmas);
+
+  const std::vector<Eigen::Vector3f> gains = estimateGains(samples, views.size());
+  std::vector<Eigen::Matrix<std::uint8_t, 3, 1>> colors(surfels.size());
+  for (std::size_t i = 0; i < surfels.size(); ++i)
+  {
+    const Eigen::Vector3f rgb = mean(samples[i], gains);
+    for (int c = 0; c < 3; ++c)
+      colors[i][c] = static_cast<std::uint8_t>(std::clamp(rgb[c] + 0.5f, 0.f, 255.f));
+  }
+  return colors;
+}
+
+}  // namespace object_modelling::fusion

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "observation.h"
+#include "view.h"
+
+namespace object_modelling::fusion
+{
+/// How the views agree with a surface point, each by the depth it measured where the point projects.
+struct Votes
+{
+  int same = 0;          ///< sees a surface there
+  int seen_through = 0;  ///< sees a surface clearly behind: the point is not there
+  int object = 0;        ///< of `same`: inside its mask
+  int background = 0;    ///< of `same`: outside its mask
+
+  /// Whether the views that see through weigh more. One wrong view (a bad pose, a flying pixel behind the object) does
+  /// not outvote two right ones.
+  bool outvoted() const { return 2 * seen_through > same; }
+};
+
+/// Views that look at the point from behind its normal have a say only if they see through it.
+Votes castVotes(const std::vector<View>& views, const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
+                float axial_sigma_m, double consistency_sigmas, int own_view = -1);
+
+/// Removes the observations that other views see through, more of them than uphold them; returns how many went.
+std::size_t removeSeenThrough(const std::vector<View>& views, double consistency_sigmas,
+                              std::vector<std::vector<Observation>>* observations_per_view);
+
+}  // namespace object_modelling::fusion

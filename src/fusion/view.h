@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <opencv2/core.hpp>
+
+#include "object_modelling/rgbd/keyframe.h"
+
+namespace object_modelling::fusion
+{
+/// A keyframe prepared for looking up what it measured where a point projects.
+struct View
+{
+  const rgbd::Frame* frame = nullptr;
+  Eigen::Isometry3f T_camera_session = Eigen::Isometry3f::Identity();
+  Eigen::Vector3f p_session_camera = Eigen::Vector3f::Zero();  ///< centre of projection
+  /// Nearest depth within a pixel's 8 neighbours, infinite where none has depth: a surface that may be displaced by the
+  /// lateral noise of a pixel still counts as there.
+  cv::Mat nearest_depth_m;
+};
+
+std::vector<View> prepareViews(const std::vector<rgbd::Keyframe>& keyframes);
+
+/// Whether a frame brings a mask with anything in it.
+bool hasObject(const rgbd::Frame& frame);
+
+/// Where a point falls in a view.
+struct Projection
+{
+  bool inside = false;  ///< in front of the camera and within the image
+  float u_px = 0, v_px = 0, z_m = 0;
+  int column = 0, row = 0;  ///< pixel
+};
+
+inline Projection project(const View& view, const Eigen::Vector3f& p_session)
+{
+  Projection result;
+  const Eigen::Vector3f p_camera = view.T_camera_session * p_session;
+  if (!(p_camera.z() > 0))
+    return result;
+  const geometry::PinholeCamera& camera = view.frame->camera;
+  result.z_m = p_camera.z();
+  result.u_px = static_cast<float>(camera.fx) * p_camera.x() / p_camera.z() + static_cast<float>(camera.cx);
+  result.v_px = static_cast<float>(camera.fy) * p_camera.y() / p_camera.z() + static_cast<float>(camera.cy);
+  result.inside = result.u_px > -0.5f && result.v_px > -0.5f && result.u_px < static_cast<float>(camera.width) - 0.5f &&
+                  result.v_px < static_cast<float>(camera.height) - 0.5f;
+  if (result.inside)
+  {
+    result.column = static_cast<int>(result.u_px + 0.5f);
+    result.row = static_cast<int>(result.v_px + 0.5f);
+  }
+  return result;
+}
+
+}  // namespace object_modelling::fusion
