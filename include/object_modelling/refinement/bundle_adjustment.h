@@ -21,6 +21,7 @@ struct BundleAdjustmentOptions
   std::vector<std::string> violations() const;
 };
 
+/// Over the observations that end up as inliers (within 6 sigmas), the same ones before and after.
 struct KeyframeResidual
 {
   int keyframe_id = -1;
@@ -46,7 +47,8 @@ struct BundleAdjustmentResult
   std::vector<geometry::Matrix6d> covariance;
   std::vector<KeyframeResidual> residuals;
   std::vector<KeyframeLink> links;  ///< verified pairs that the tracker had not linked; loop closures among them
-  std::vector<int> left_out;        ///< ids of keyframes that nothing links to the others; poses unchanged
+  std::vector<KeyframeLink> rejected_links;  ///< geometrically verified too, but in contradiction to the rest; not used
+  std::vector<int> left_out;                 ///< ids of keyframes that nothing links to the others; poses unchanged
   int iterations = 0;
   double initial_cost = 0, final_cost = 0;
 };

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "landmark_map.h"
+#include "object_modelling/base/job_control.h"
+
+namespace object_modelling::refinement
+{
+struct BundleSolverOptions
+{
+  double loss_width_sigmas = 2;
+  int max_iterations = 50;
+  int threads = 1;
+};
+
+struct BundleSolverSummary
+{
+  bool usable = false;
+  bool converged = false;
+  int iterations = 0;
+};
+
+/// Poses and landmarks that belong together.
+struct BundleState
+{
+  std::vector<Eigen::Isometry3d> T_session_camera;
+  LandmarkMap map;
+};
+
+/// One run of Levenberg-Marquardt over all poses and landmarks (Ceres, landmarks eliminated first), Cauchy loss on
+/// every pixel and every depth on its own, so that a bad depth does not cost a good pixel. `fixed_keyframe` stays where
+/// it is. `state` is changed only if the summary is usable. Rethrows what `control` throws.
+BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, int fixed_keyframe,
+                                const BundleSolverOptions& options, base::JobControl& control, BundleState* state);
+
+/// Pixel error (px) and depth error (m, NaN where no depth) of a sight. The pixel error of a landmark behind the camera
+/// is infinite.
+struct SightError
+{
+  double pixel_px = 0;
+  double depth_m = 0;
+};
+SightError sightError(const Sight& sight, const geometry::PinholeCamera& camera, const BundleState& state);
+
+/// Half the sum of all Cauchy losses, as the solver counts them.
+double robustCost(const std::vector<rgbd::Keyframe>& keyframes, double loss_width_sigmas, const BundleState& state);
+
+}  // namespace object_modelling::refinement

@@ -1,0 +1,35 @@
+#include "connectivity.h"
+
+#include <algorithm>
+
+namespace object_modelling::refinement
+{
+std::vector<int> largestComponent(const Eigen::MatrixXi& shared, int min_shared)
+{
+  const int count = static_cast<int>(shared.rows());
+  std::vector<bool> visited(count, false);
+  std::vector<int> largest;
+  for (int seed = 0; seed < count; ++seed)
+  {
+    if (visited[seed])
+      continue;
+    std::vector<int> component{ seed };
+    visited[seed] = true;
+    for (std::size_t next = 0; next < component.size(); ++next)
+    {
+      for (int other = 0; other < count; ++other)
+      {
+        if (visited[other] || shared(component[next], other) < min_shared)
+          continue;
+        visited[other] = true;
+        component.push_back(other);
+      }
+    }
+    if (component.size() > largest.size())
+      largest = std::move(component);
+  }
+  std::sort(largest.begin(), largest.end());
+  return largest;
+}
+
+}  // namespace object_modelling::refinement

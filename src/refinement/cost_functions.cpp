@@ -1,0 +1,85 @@
+#include "cost_functions.h"
+
+#include "so3.h"
+
+namespace object_modelling::refinement
+{
+namespace
+{
+// A landmark this close to the camera's plane has no pixel. It costs as much as a gross outlier and pulls nowhere:
+// refusing the step instead would let one bad landmark stop all others.
+constexpr double MIN_DEPTH_M = 1e-3;
+constexpr double BEHIND_SIGMAS = 1e3;
+
+template <int ROWS>
+using MotionJacobian = Eigen::Map<Eigen::Matrix<double, ROWS, 6, Eigen::RowMajor>>;
+template <int ROWS>
+using PointJacobian = Eigen::Map<Eigen::Matrix<double, ROWS, 3, Eigen::RowMajor>>;
+
+}  // namespace
+
+Eigen::Vector3d LinearisedCamera::transform(const double* xi, const double* p_session,
+                                            Eigen::Matrix<double, 3, 6>* by_motion, Eigen::Matrix3d* by_point) const
+{
+  const Eigen::Map<const Eigen::Vector3d> t(xi), r(xi + 3), p(p_session);
+  const Eigen::Matrix3d R = rotationFromVector(r);
+  const Eigen::Vector3d rotated = R * (T_camera_session * p);
+  if (by_motion != nullptr)
+  {
+    by_motion->leftCols<3>().setIdentity();
+    by_motion->rightCols<3>() = -crossMatrix(rotated) * leftJacobian(r);
+  }
+  if (by_point != nullptr)
+    *by_point = R * T_camera_session.linear();
+  return rotated + t;
+}
+
+bool ReprojectionCost::Evaluate(const double* const* parameters, double* residuals, double** jacobians) const
+{
+  Eigen::Matrix<double, 3, 6> by_motion;
+  Eigen::Matrix3d by_point;
+  const bool derive = jacobians != nullptr;
+  const Eigen::Vector3d p =
+      camera_->transform(parameters[0], parameters[1], derive ? &by_motion : nullptr, derive ? &by_point : nullptr);
+  if (!(p.z() > MIN_DEPTH_M))
+  {
+    residuals[0] = residuals[1] = BEHIND_SIGMAS;
+    if (derive && jacobians[0] != nullptr)
+      MotionJacobian<2>{ jacobians[0] }.setZero();
+    if (derive && jacobians[1] != nullptr)
+      PointJacobian<2>{ jacobians[1] }.setZero();
+    return true;
+  }
+  residuals[0] = (camera_->fx * p.x() / p.z() + camera_->cx - pixel_.x()) / sigma_px_;
+  residuals[1] = (camera_->fy * p.y() / p.z() + camera_->cy - pixel_.y()) / sigma_px_;
+  if (!derive)
+    return true;
+  Eigen::Matrix<double, 2, 3> by_camera_point;
+  by_camera_point << camera_->fx / p.z(), 0, -camera_->fx * p.x() / (p.z() * p.z()), 0, camera_->fy / p.z(),
+      -camera_->fy * p.y() / (p.z() * p.z());
+  by_camera_point /= sigma_px_;
+  if (jacobians[0] != nullptr)
+    MotionJacobian<2>{ jacobians[0] }.noalias() = by_camera_point * by_motion;
+  if (jacobians[1] != nullptr)
+    PointJacobian<2>{ jacobians[1] }.noalias() = by_camera_point * by_point;
+  return true;
+}
+
+bool DepthCost::Evaluate(const double* const* parameters, double* residuals, double** jacobians) const
+{
+  Eigen::Matrix<double, 3, 6> by_motion;
+  Eigen::Matrix3d by_point;
+  const bool derive = jacobians != nullptr;
+  const Eigen::Vector3d p =
+      camera_->transform(parameters[0], parameters[1], derive ? &by_motion : nullptr, derive ? &by_point : nullptr);
+  residuals[0] = (p.z() - depth_m_) / sigma_m_;
+  if (!derive)
+    return true;
+  if (jacobians[0] != nullptr)
+    MotionJacobian<1>{ jacobians[0] } = by_motion.row(2) / sigma_m_;
+  if (jacobians[1] != nullptr)
+    PointJacobian<1>{ jacobians[1] } = by_point.row(2) / sigma_m_;
+  return true;
+}
+
+}  // namespace object_modelling::refinement

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <ceres/sized_cost_function.h>
+#include <Eigen/Geometry>
+
+#include "object_modelling/geometry/pinhole_camera.h"
+
+namespace object_modelling::refinement
+{
+/// What a residual needs to know of its keyframe. The optimised block of 6 is a motion xi = (t, r) on the left of this
+/// pose: T_camera_session(xi) = [R(r) | t] * T_camera_session. It starts at 0 and stays small, so that rotation vectors
+/// never come near their singularity and no manifold is needed (its Ceres interface changed with 2.1).
+struct LinearisedCamera
+{
+  double fx = 0, fy = 0, cx = 0, cy = 0;  ///< px
+  Eigen::Isometry3d T_camera_session = Eigen::Isometry3d::Identity();
+
+  LinearisedCamera() = default;
+  LinearisedCamera(const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_session_camera)
+      : fx(camera.fx), fy(camera.fy), cx(camera.cx), cy(camera.cy), T_camera_session(T_session_camera.inverse())
+  {
+  }
+
+  /// Point in the camera after the motion, and its derivatives where asked for (null: not).
+  Eigen::Vector3d transform(const double* xi, const double* p_session, Eigen::Matrix<double, 3, 6>* by_motion,
+                            Eigen::Matrix3d* by_point) const;
+};
+
+/// Pixel of a landmark minus its observation, in sigmas. Blocks: motion (6), landmark in the session frame (3).
+class ReprojectionCost : public ceres::SizedCostFunction<2, 6, 3>
+{
+public:
+  /// `camera` must outlive the cost.
+  ReprojectionCost(const LinearisedCamera* camera, const Eigen::Vector2d& pixel, double sigma_px)
+      : camera_(camera), pixel_(pixel), sigma_px_(sigma_px)
+  {
+  }
+  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override;
+
+private:
+  const LinearisedCamera* camera_;
+  Eigen::Vector2d pixel_;
+  double sigma_px_;
+};
+
+/// Depth of a landmark minus its observation, in sigmas. Blocks as above.
+class DepthCost : public ceres::SizedCostFunction<1, 6, 3>
+{
+public:
+  DepthCost(const LinearisedCamera* camera, double depth_m, double sigma_m)
+      : camera_(camera), depth_m_(depth_m), sigma_m_(sigma_m)
+  {
+  }
+  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override;
+
+private:
+  const LinearisedCamera* camera_;
+  double depth_m_;
+  double sigma_m_;
+};
+
+}  // namespace object_modelling::refinement

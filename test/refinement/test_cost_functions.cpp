@@ -1,0 +1,88 @@
+#include "cost_functions.h"
+
+#include <ceres/ceres.h>
+#include <ceres/gradient_checker.h>
+#include <gtest/gtest.h>
+
+#include "object_modelling/geometry/transform.h"
+
+namespace object_modelling::refinement
+{
+namespace
+{
+LinearisedCamera makeCamera()
+{
+  geometry::PinholeCamera camera;
+  camera.fx = 531;
+  camera.fy = 527;
+  camera.cx = 322;
+  camera.cy = 237;
+  geometry::Vector6d pose;
+  pose << 0.3, -0.2, 0.1, 0.4, -0.7, 0.2;
+  return { camera, geometry::isometryFromVector(pose) };
+}
+
+/// Landmark 0.8 m in front of the camera, a little off its axis, in the session frame.
+Eigen::Vector3d makeLandmark(const LinearisedCamera& camera)
+{
+  return camera.T_camera_session.inverse() * Eigen::Vector3d(0.1, -0.05, 0.8);
+}
+
+void expectRightDerivatives(const ceres::CostFunction& cost, const Eigen::Vector3d& landmark)
+{
+  std::vector<geometry::Vector6d> motions(3, geometry::Vector6d::Zero());
+  motions[1] << 0.01, -0.02, 0.03, 0.2, -0.1, 0.3;
+  motions[2] << 0, 0, 0, 1e-8, 0, -1e-8;
+  ceres::NumericDiffOptions numeric;
+#if CERES_VERSION_MAJOR < 2 || (CERES_VERSION_MAJOR == 2 && CERES_VERSION_MINOR < 1)
+  const std::vector<const ceres::LocalParameterization*>* manifolds = nullptr;
+#else
+  const std::vector<const ceres::Manifold*>* manifolds = nullptr;
+#endif
+  ceres::GradientChecker checker(&cost, manifolds, numeric);
+  for (const geometry::Vector6d& motion : motions)
+  {
+    const double* parameters[2] = { motion.data(), landmark.data() };
+    ceres::GradientChecker::ProbeResults results;
+    EXPECT_TRUE(checker.Probe(parameters, 1e-6, &results)) << results.error_log;
+  }
+}
+
+TEST(CostFunctions, haveRightDerivatives)
+{
+  const LinearisedCamera camera = makeCamera();
+  expectRightDerivatives(ReprojectionCost(&camera, { 350, 220 }, 0.5), makeLandmark(camera));
+  expectRightDerivatives(DepthCost(&camera, 0.78, 0.0015), makeLandmark(camera));
+}
+
+TEST(CostFunctions, countInSigmas)
+{
+  const LinearisedCamera camera = makeCamera();
+  const Eigen::Vector3d landmark = makeLandmark(camera);
+  const geometry::Vector6d motion = geometry::Vector6d::Zero();
+  const double* parameters[2] = { motion.data(), landmark.data() };
+  const Eigen::Vector2d pixel(531 * 0.1 / 0.8 + 322, 527 * -0.05 / 0.8 + 237);
+  double residuals[2];
+  ASSERT_TRUE(ReprojectionCost(&camera, pixel - Eigen::Vector2d(1, -2), 0.5).Evaluate(parameters, residuals, nullptr));
+  EXPECT_NEAR(residuals[0], 2, 1e-9);
+  EXPECT_NEAR(residuals[1], -4, 1e-9);
+  ASSERT_TRUE(DepthCost(&camera, 0.803, 0.001).Evaluate(parameters, residuals, nullptr));
+  EXPECT_NEAR(residuals[0], -3, 1e-9);
+}
+
+TEST(CostFunctions, countALandmarkBehindTheCameraAsGrossOutlier)
+{
+  const LinearisedCamera camera = makeCamera();
+  const Eigen::Vector3d behind = camera.T_camera_session.inverse() * Eigen::Vector3d(0.1, 0, -0.5);
+  const geometry::Vector6d motion = geometry::Vector6d::Zero();
+  const double* parameters[2] = { motion.data(), behind.data() };
+  double residuals[2], by_motion[12], by_point[6];
+  double* jacobians[2] = { by_motion, by_point };
+  ASSERT_TRUE(ReprojectionCost(&camera, { 0, 0 }, 1).Evaluate(parameters, residuals, jacobians));
+  EXPECT_GT(residuals[0], 100);
+  for (double value : by_motion)
+    EXPECT_EQ(value, 0);
+}
+
+}  // namespace
+}  // namespace object_modelling::refinement
