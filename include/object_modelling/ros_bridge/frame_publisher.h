@@ -19,8 +19,11 @@ public:
   void publish(const rgbd::Frame& frame, const ros::Time& color_stamp, const ros::Time& depth_stamp,
                const geometry::PinholeCamera& raw_camera);
 
-  /// Listeners of the colour topic.
-  std::uint32_t subscriberCount() const { return color_.getNumSubscribers(); }
+  /// Whether colour, depth and camera info are all listened to.
+  bool connected() const
+  {
+    return color_.getNumSubscribers() > 0 && depth_.getNumSubscribers() > 0 && info_.getNumSubscribers() > 0;
+  }
 
 private:
   std::string frame_id_;

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include "debug_image.h"
+#include "recording.h"
+
+namespace object_modelling::nodes
+{
+/// Publishes what became of frames: ~keyframe, ~pose, tf, ~debug_image, and last the latched ~state.
+class TrackingPublisher
+{
+public:
+  TrackingPublisher(ros::NodeHandle& private_node, const CameraTrackerNodeOptions& options);
+
+  void publish(const TrackedFrame& tracked);
+  void publishState(const object_modelling::TrackingState& state) { state_.publish(state); }
+
+  /// Whether somebody takes the keyframes.
+  bool keyframesAreHeard() const { return keyframe_.getNumSubscribers() > 0; }
+  std::string keyframeTopic() const { return keyframe_.getTopic(); }
+
+private:
+  void publishPose(const tracking::TrackingResult& result, const std_msgs::Header& header);
+
+  std::string session_frame_id_;
+  TfDirection tf_direction_;
+  DebugImage debug_;
+  ros::Publisher state_, pose_, keyframe_, debug_image_;
+  tf2_ros::TransformBroadcaster broadcaster_;
+};
+
+}  // namespace object_modelling::nodes

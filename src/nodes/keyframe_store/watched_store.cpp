@@ -1,0 +1,87 @@
+#include "watched_store.h"
+
+#include <glog/logging.h>
+
+#include "object_modelling/ros_bridge/status_conversion.h"
+
+namespace object_modelling::nodes
+{
+WatchedStore::WatchedStore(const std::string& connection, StoreWatcher& watcher)
+  : connection_(connection), watcher_(watcher)
+{
+}
+
+keyframes::SessionStore& WatchedStore::opened()
+{
+  if (!store_)
+    store_ = keyframes::openSqlStore(connection_);
+  return *store_;
+}
+
+void WatchedStore::write(const std::function<void(keyframes::SessionStore&)>& body, const std::function<void()>& tell)
+{
+  const base::Status status = ros_bridge::guarded([&] { body(opened()); });
+  if (status.ok() && tell)
+  {
+    const base::Status told = ros_bridge::guarded(tell);
+    LOG_IF(WARNING, !told.ok()) << "the preview does not show the last change: " << told.message;
+  }
+  watcher_.onWrite(status);
+  if (!status.ok())
+    throw base::Error(status.code, status.message);
+}
+
+void WatchedStore::createSession(const keyframes::Session& session)
+{
+  write([&](keyframes::SessionStore& store) { store.createSession(session); });
+}
+
+std::vector<keyframes::Session> WatchedStore::listSessions() { return opened().listSessions(); }
+
+keyframes::Session WatchedStore::session(const std::string& session_id) { return opened().session(session_id); }
+
+void WatchedStore::updateSession(const keyframes::Session& session)
+{
+  write([&](keyframes::SessionStore& store) { store.updateSession(session); });
+}
+
+void WatchedStore::deleteSession(const std::string& session_id)
+{
+  write([&](keyframes::SessionStore& store) { store.deleteSession(session_id); }, [&] { watcher_.onDeleted(session_id); });
+}
+
+void WatchedStore::addKeyframe(const std::string& session_id, const rgbd::Keyframe& keyframe)
+{
+  write([&](keyframes::SessionStore& store) { store.addKeyframe(session_id, keyframe); }, [&] { watcher_.onKeyframe(session_id, keyframe); });
+}
+
+std::vector<int> WatchedStore::keyframeIds(const std::string& session_id) { return opened().keyframeIds(session_id); }
+
+rgbd::Keyframe WatchedStore::keyframe(const std::string& session_id, int keyframe_id)
+{
+  return opened().keyframe(session_id, keyframe_id);
+}
+
+void WatchedStore::updatePoses(const std::string& session_id, const std::vector<keyframes::PoseUpdate>& updates)
+{
+  write([&](keyframes::SessionStore& store) { store.updatePoses(session_id, updates); }, [&] { watcher_.onPoses(session_id, updates); });
+}
+
+void WatchedStore::updateMasks(const std::string& session_id, const std::vector<keyframes::MaskUpdate>& updates)
+{
+  write([&](keyframes::SessionStore& store) { store.updateMasks(session_id, updates); }, [&] { watcher_.onMasks(session_id, updates); });
+}
+
+void WatchedStore::exportSession(const std::string& session_id, const std::string& path)
+{
+  opened().exportSession(session_id, path);
+}
+
+std::string WatchedStore::importSession(const std::string& path)
+{
+  std::string session_id;
+  write([&](keyframes::SessionStore& store) { session_id = store.importSession(path); });
+  return session_id;
+}
+
+}  // namespace object_modelling::nodes
