@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "object_modelling/base/options.h"
+#include "low_holes.h"
 #include "object_volume.h"
 #include "smooth_clustering.h"
 #include "support_around.h"
@@ -145,6 +146,8 @@ private:
     const cv::Mat above = pixelsAbove(frame, plane_camera, limits, segmenter.cluster_depth_step_ratio, area);
     const Clusters clusters = clusterSmooth(frame, above, segmenter.cluster_depth_step_ratio, min_piece_px);
     chooseClusters(keyframe, clusters, &view);
+    const double noise_scale = view.support ? view.support->noise_scale : 1;
+    fillLowHoles(frame, plane_camera, noise_scale * segmenter.min_height_m, segmenter.max_height_m, area, &view.mask);
     if (cv::countNonZero(view.mask) < min_piece_px)
       view.status = { base::StatusCode::NO_RESULT,
                       "nothing of the object is seen in " + describeKeyframe(keyframe) + ": hidden, or without depth" };

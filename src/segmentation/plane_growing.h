@@ -4,22 +4,11 @@
 
 #include <opencv2/core.hpp>
 
-#include "object_modelling/rgbd/frame.h"
 #include "plane_moments.h"
+#include "working_image.h"
 
 namespace object_modelling::segmentation
 {
-/// A frame thinned out to about 213x160, with normals: enough to find planes, a ninth of the work. Pixel (u, v) is
-/// pixel (u * step, v * step) of the frame.
-struct WorkingImage
-{
-  int step = 1;
-  rgbd::Frame frame;
-  cv::Mat normals;  ///< CV_32FC3
-};
-/// Pixels outside `ignored` (CV_8UC1 of the frame's size, may be empty) only.
-WorkingImage makeWorkingImage(const rgbd::Frame& frame, const cv::Mat& ignored = {});
-
 struct PlaneGrowingOptions
 {
   double angle_rad = 0.17453293;

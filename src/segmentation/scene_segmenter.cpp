@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "low_holes.h"
 #include "noise_table.h"
 #include "object_modelling/base/options.h"
 #include "plane_growing.h"
@@ -53,15 +54,14 @@ std::vector<SupportedPlane> fullPlanes(const rgbd::Frame& frame, const WorkingIm
   return result;
 }
 
-Hypothesis describe(const rgbd::Frame& frame, const geometry::Plane& support, const cv::Mat& mask, const cv::Rect& rect,
-                    int pixel_count)
+Hypothesis describe(const rgbd::Frame& frame, const geometry::Plane& support, const cv::Mat& mask, const cv::Rect& rect)
 {
   constexpr int SAMPLES = 2000;
   constexpr double TRIM_RATIO = 0.002;
   Hypothesis hypothesis;
   hypothesis.mask = mask;
-  hypothesis.pixel_count = pixel_count;
-  const int stride = std::max(1, pixel_count / SAMPLES);
+  hypothesis.pixel_count = cv::countNonZero(mask(rect));
+  const int stride = std::max(1, hypothesis.pixel_count / SAMPLES);
   std::vector<Eigen::Vector3f> points;
   int index = 0;
   for (int v = rect.y; v < rect.y + rect.height; ++v)
@@ -98,10 +98,12 @@ std::vector<Hypothesis> findHypotheses(const rgbd::Frame& frame, const WorkingIm
   std::vector<Hypothesis> hypotheses;
   for (const Cluster& cluster : clusters.clusters)
   {
-    const cv::Mat mask = clusters.mask(cluster);
+    cv::Mat mask = clusters.mask(cluster);
     if (extent.carriedRatio(frame, mask, cluster.rect, EXTENT_MARGIN_M) < MIN_CARRIED_RATIO)
       continue;
-    hypotheses.push_back(describe(frame, plane, mask, cluster.rect, cluster.pixel_count));
+    fillLowHoles(frame, plane, options.min_height_m * planes.planes[support].noise_scale, options.max_height_m,
+                 cluster.rect, &mask);
+    hypotheses.push_back(describe(frame, plane, mask, cluster.rect));
     hypotheses.back().id = static_cast<int>(hypotheses.size()) - 1;
   }
   return hypotheses;

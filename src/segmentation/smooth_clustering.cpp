@@ -11,6 +11,7 @@ namespace
 {
 constexpr int MAX_GAP_PX = 2;
 constexpr int MIN_NEIGHBOURS = 3;
+constexpr int MAX_FOOT_PX = 5;
 
 bool connected(float z_a, float z_b, float ratio)
 {
@@ -53,6 +54,32 @@ private:
   std::vector<int> parent_{ 0 };  // 0 is the background
 };
 
+/// Labels of the HIGH pixels spread over LOW ones, a few pixels far: the last millimetres above the support.
+void growFeet(const cv::Mat& depth_m, const cv::Mat& foreground, float ratio, cv::Mat* labels)
+{
+  std::vector<cv::Point> front, next;
+  for (int v = 0; v < foreground.rows; ++v)
+    for (int u = 0; u < foreground.cols; ++u)
+      if (labels->at<int>(v, u) != 0)
+        front.emplace_back(u, v);
+  const cv::Rect image(0, 0, foreground.cols, foreground.rows);
+  for (int step = 0; step < MAX_FOOT_PX && !front.empty(); ++step)
+  {
+    next.clear();
+    for (const cv::Point& from : front)
+      for (const cv::Point& way : { cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1) })
+      {
+        const cv::Point to = from + way;
+        if (!image.contains(to) || labels->at<int>(to) != 0 || foreground.at<std::uint8_t>(to) != LOW ||
+            !connected(depth_m.at<float>(from), depth_m.at<float>(to), ratio))
+          continue;
+        labels->at<int>(to) = labels->at<int>(from);
+        next.push_back(to);
+      }
+    front.swap(next);
+  }
+}
+
 }  // namespace
 
 cv::Mat pixelsAbove(const rgbd::Frame& frame, const geometry::Plane& plane_camera, const HeightLimits& limits,
@@ -83,12 +110,13 @@ cv::Mat pixelsAbove(const rgbd::Frame& frame, const geometry::Plane& plane_camer
       const float x = (u - static_cast<float>(frame.camera.cx)) * inverse_fx;
       const float along_normal = n.x() * x + n.y() * y + n.z();  // height gained per metre of depth
       const float height_m = z * along_normal + offset_m;
-      if (height_m <= min_m || height_m > max_m)
+      if (height_m <= min_m / 2 || height_m > max_m)
         continue;
       const float projection = std::abs(along_normal);
       const float sigma_m = projection * noise.sigma_m(z, projection / std::sqrt(x * x + y * y + 1));
-      if (height_m > min_m + sigmas * sigma_m && !flying(frame.depth_m, u, v, ratio))
-        out[u] = 255;
+      const float limit_m = min_m + sigmas * sigma_m;
+      if (height_m > limit_m / 2 && !flying(frame.depth_m, u, v, ratio))
+        out[u] = height_m > limit_m ? HIGH : LOW;
     }
   }
   return above;
@@ -122,7 +150,7 @@ Clusters clusterSmooth(const rgbd::Frame& frame, const cv::Mat& foreground, doub
     const auto* on = foreground.ptr<std::uint8_t>(v);
     for (int u = 0; u < foreground.cols; ++u)
     {
-      if (on[u] == 0)
+      if (on[u] != HIGH)
         continue;
       const float z = depth_m.at<float>(v, u);
       int label = 0;
@@ -155,6 +183,8 @@ Clusters clusterSmooth(const rgbd::Frame& frame, const cv::Mat& foreground, doub
       labels.at<int>(v, u) = label != 0 ? label : sets.add();
     }
   }
+
+  growFeet(depth_m, foreground, ratio, &labels);
 
   struct Extent
   {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -17,9 +18,15 @@ struct HeightLimits
   double max_distance_m = 2.0;  ///< along the optical axis
 };
 
-/// CV_8UC1, 255 where a pixel stands above the plane (in the camera frame) by more than table and noise can explain
-/// and has neighbours at its own depth: lone pixels that fly between a silhouette and what lies behind it are left
-/// out. Only within `area` (empty: everywhere).
+enum Foreground : std::uint8_t
+{
+  BELOW = 0,
+  LOW = 128,   ///< above half of the height limit: object if it continues an object's foot
+  HIGH = 255,  ///< higher than table and noise can explain
+};
+
+/// CV_8UC1 of Foreground: how a pixel stands above the plane (in the camera frame). Lone pixels that fly between a
+/// silhouette and what lies behind it are BELOW. Only within `area` (empty: everywhere).
 cv::Mat pixelsAbove(const rgbd::Frame& frame, const geometry::Plane& plane_camera, const HeightLimits& limits,
                     double depth_step_ratio, const cv::Rect& area = {});
 
@@ -38,8 +45,9 @@ struct Clusters
   cv::Mat mask(const Cluster& cluster) const;
 };
 
-/// Connected components of the foreground: neighbours are connected whose depths differ by less than a share of their
-/// depth, also across gaps of up to 2 px without depth. Linear in the number of pixels.
+/// Connected components of the HIGH foreground: neighbours are connected whose depths differ by less than a share of
+/// their depth, also across gaps of up to 2 px without depth. They then grow by the LOW pixels of their foot. Linear in
+/// the number of pixels.
 Clusters clusterSmooth(const rgbd::Frame& frame, const cv::Mat& foreground, double depth_step_ratio, int min_pixels);
 
 }  // namespace object_modelling::segmentation
