@@ -1,0 +1,53 @@
+#include "poisson.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <pcl/point_types.h>
+#include <pcl/surface/poisson.h>
+#include <Eigen/Geometry>
+
+namespace object_modelling::surface
+{
+namespace
+{
+constexpr float BOX_SCALE = 1.1f;  ///< edge of the octree over that of the points
+constexpr int MIN_DEPTH = 4, MAX_DEPTH = 10;
+
+}  // namespace
+
+geometry::TriangleMesh poissonSurface(const std::vector<Eigen::Vector3f>& points,
+                                      const std::vector<Eigen::Vector3f>& normals, double cell_size_m)
+{
+  pcl::PointCloud<pcl::PointNormal>::Ptr cloud(new pcl::PointCloud<pcl::PointNormal>);
+  cloud->resize(points.size());
+  Eigen::AlignedBox3f box;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    (*cloud)[i].getVector3fMap() = points[i];
+    (*cloud)[i].getNormalVector3fMap() = normals[i];
+    box.extend(points[i]);
+  }
+  const double cells = BOX_SCALE * box.sizes().maxCoeff() / cell_size_m;
+
+  pcl::Poisson<pcl::PointNormal> poisson;
+  poisson.setDepth(std::clamp(static_cast<int>(std::ceil(std::log2(std::max(cells, 1.0)))), MIN_DEPTH, MAX_DEPTH));
+  poisson.setScale(BOX_SCALE);
+  poisson.setInputCloud(cloud);
+  pcl::PointCloud<pcl::PointNormal> vertices;
+  std::vector<pcl::Vertices> polygons;
+  poisson.performReconstruction(vertices, polygons);
+
+  geometry::TriangleMesh mesh;
+  for (const pcl::PointNormal& vertex : vertices)
+    mesh.vertices.push_back(vertex.getVector3fMap());
+  for (const pcl::Vertices& polygon : polygons)
+  {
+    mesh.triangles.push_back({ static_cast<std::uint32_t>(polygon.vertices[0]),
+                               static_cast<std::uint32_t>(polygon.vertices[1]),
+                               static_cast<std::uint32_t>(polygon.vertices[2]) });
+  }
+  return mesh;
+}
+
+}  // namespace object_modelling::surface

@@ -1,0 +1,139 @@
+#include "object_modelling/surface/surface_reconstruction.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh_cleaning.h"
+#include "object_modelling/base/options.h"
+#include "point_index.h"
+#include "poisson.h"
+
+namespace object_modelling::surface
+{
+namespace
+{
+constexpr std::size_t MIN_POINTS = 50;
+constexpr std::size_t NEIGHBOURS = 24;
+constexpr std::size_t COLOR_NEIGHBOURS = 4;
+/// Surface this near to a fused point is seen even at the rim of the cloud; in units of the resolution.
+constexpr float RIM_RATIO = 1.f;
+constexpr double MIN_PIECE_RATIO = 0.02;  ///< of the largest piece's area
+constexpr int STAGES = 4;
+
+/// Largest angle (rad) about `normal` through which no neighbour lies, seen from `center`.
+float largestGap_rad(const Eigen::Vector3f& center, const Eigen::Vector3f& normal,
+                     const std::vector<Eigen::Vector3f>& neighbours)
+{
+  const Eigen::Vector3f e1 = normal.unitOrthogonal(), e2 = normal.cross(e1);
+  std::vector<float> angles_rad;
+  for (const Eigen::Vector3f& neighbour : neighbours)
+    angles_rad.push_back(std::atan2(e2.dot(neighbour - center), e1.dot(neighbour - center)));
+  if (angles_rad.empty())
+    return static_cast<float>(2 * M_PI);
+  std::sort(angles_rad.begin(), angles_rad.end());
+  float gap_rad = static_cast<float>(2 * M_PI) - (angles_rad.back() - angles_rad.front());
+  for (std::size_t i = 1; i < angles_rad.size(); ++i)
+    gap_rad = std::max(gap_rad, angles_rad[i] - angles_rad[i - 1]);
+  return gap_rad;
+}
+
+/// Whether the cloud vouches for a vertex: a fused point of the same side lies close by, or they surround it within the
+/// support distance. What lies beyond the cloud's rim has nothing on its far side.
+bool supported(const Eigen::Vector3f& vertex, const Eigen::Vector3f& normal, const fusion::FusedCloud& cloud,
+               const PointIndex& index, const SurfaceOptions& options)
+{
+  std::vector<PointIndex::Neighbour> neighbours;
+  index.nearest(vertex, NEIGHBOURS, &neighbours);
+  const double near_m = RIM_RATIO * options.resolution_m;
+  std::vector<Eigen::Vector3f> around;
+  for (const PointIndex::Neighbour& neighbour : neighbours)
+  {
+    if (neighbour.squared_distance > options.max_support_distance_m * options.max_support_distance_m)
+      break;
+    if (cloud.normals[neighbour.index].dot(normal) <= 0)
+      continue;
+    if (neighbour.squared_distance < near_m * near_m)
+      return true;
+    around.push_back(cloud.points[neighbour.index]);
+  }
+  return largestGap_rad(vertex, normal, around) < M_PI;
+}
+
+void colourFromCloud(const fusion::FusedCloud& cloud, const PointIndex& index, geometry::TriangleMesh* mesh)
+{
+  mesh->colors.resize(mesh->vertices.size());
+#pragma omp parallel for schedule(static)
+  for (std::int64_t i = 0; i < static_cast<std::int64_t>(mesh->vertices.size()); ++i)
+  {
+    std::vector<PointIndex::Neighbour> neighbours;
+    index.nearest(mesh->vertices[i], COLOR_NEIGHBOURS, &neighbours);
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    float weight = 0;
+    for (const PointIndex::Neighbour& neighbour : neighbours)
+    {
+      // Points of the other side of a thin wall count only where there is no other.
+      const bool same_side = cloud.normals[neighbour.index].dot(mesh->normals[i]) > 0;
+      const float w = (same_side ? 1.f : 1e-6f) / (neighbour.squared_distance + 1e-9f);
+      sum += w * cloud.colors[neighbour.index].cast<float>();
+      weight += w;
+    }
+    mesh->colors[i] = (sum / weight + Eigen::Vector3f::Constant(0.5f)).cast<std::uint8_t>();
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> SurfaceOptions::violations() const
+{
+  base::OptionsCheck check("surface_reconstruction");
+  check.inRange("resolution_m", resolution_m, 1e-4, 0.1);
+  check.inRange("max_support_distance_m", max_support_distance_m, 1e-4, 0.5);
+  return check.violations();
+}
+
+SurfaceResult reconstructSurface(const fusion::FusedCloud& cloud, const SurfaceOptions& options,
+                                 base::JobControl& control)
+{
+  base::checked(options);
+  control.report("mesh", 0, STAGES);
+  SurfaceResult result;
+  if (cloud.size() < MIN_POINTS)
+  {
+    result.status = { base::StatusCode::NO_RESULT, "no surface: the fused cloud has " + std::to_string(cloud.size()) +
+                                                       " points, at least " + std::to_string(MIN_POINTS) +
+                                                       " are needed; record more views of the object" };
+    return result;
+  }
+  geometry::TriangleMesh mesh = poissonSurface(cloud.points, cloud.normals, options.resolution_m);
+  removeDegenerateTriangles(&mesh);
+  geometry::computeNormals(&mesh);
+
+  control.report("mesh", 1, STAGES);
+  const PointIndex index(cloud.points);
+  std::vector<char> keep(mesh.vertices.size());
+#pragma omp parallel for schedule(static)
+  for (std::int64_t i = 0; i < static_cast<std::int64_t>(keep.size()); ++i)
+    keep[i] = supported(mesh.vertices[i], mesh.normals[i], cloud, index, options);
+
+  control.report("mesh", 2, STAGES);
+  keepVertices(keep, &mesh);
+  removeSmallPieces(MIN_PIECE_RATIO, &mesh);
+  splitTouchingFans(&mesh);
+  if (mesh.empty())
+  {
+    result.status = { base::StatusCode::NO_RESULT,
+                      "no surface: none of it lies within max_support_distance_m of a fused point; raise it or "
+                      "resolution_m" };
+    return result;
+  }
+
+  control.report("mesh", 3, STAGES);
+  geometry::computeNormals(&mesh);
+  if (cloud.colors.size() == cloud.size())
+    colourFromCloud(cloud, index, &mesh);
+  control.report("mesh", STAGES, STAGES);
+  result.mesh = std::move(mesh);
+  return result;
+}
+
+}  // namespace object_modelling::surface
