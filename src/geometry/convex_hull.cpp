@@ -1,5 +1,8 @@
 #include "convex_hull.h"
 
+#include <algorithm>
+#include <cmath>
+
 extern "C"
 {
 #include <libqhull_r/qhull_ra.h>
@@ -26,11 +29,12 @@ public:
   Qhull(const Qhull&) = delete;
   Qhull& operator=(const Qhull&) = delete;
 
-  bool run(std::vector<coordT>* coordinates)
+  bool run(std::vector<Eigen::Vector3d>* points)
   {
+    static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(coordT), "Qhull reads points as a flat array");
     char command[] = "qhull Pp";
-    const int count = static_cast<int>(coordinates->size() / 3);
-    return qh_new_qhull(&state_, 3, count, coordinates->data(), False, command, nullptr, nullptr) == 0;
+    const int count = static_cast<int>(points->size());
+    return qh_new_qhull(&state_, 3, count, points->front().data(), False, command, nullptr, nullptr) == 0;
   }
   qhT* state() { return &state_; }
 
@@ -38,34 +42,34 @@ private:
   qhT state_;
 };
 
-ConvexHull flatHull(const std::vector<Eigen::Vector3f>& points)
+/// Points without volume, which Qhull refuses with pages of explanation.
+bool isFlat(const std::vector<Eigen::Vector3d>& points, const Plane& plane)
 {
-  ConvexHull hull;
-  hull.vertices = points;
-  std::vector<Eigen::Vector3d> precise;
-  for (const Eigen::Vector3f& p : points)
-    precise.push_back(p.cast<double>());
-  Plane plane;
-  if (fitPlane(precise, Eigen::Vector3d::Zero(), &plane))
-    hull.normals = { plane.normal, -plane.normal };
-  else
-    hull.normals = { Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ() };
-  return hull;
+  double off_plane_m = 0;
+  double extent_m = 0;
+  for (const Eigen::Vector3d& p : points)
+  {
+    off_plane_m = std::max(off_plane_m, std::abs(plane.signedDistance_m(p)));
+    extent_m = std::max(extent_m, (p - points.front()).norm());
+  }
+  return off_plane_m <= 1e-6 * extent_m;
 }
 
 }  // namespace
 
 ConvexHull convexHull(const std::vector<Eigen::Vector3f>& points)
 {
-  if (points.size() < 4)
-    return flatHull(points);
-  std::vector<coordT> coordinates;
-  coordinates.reserve(3 * points.size());
+  std::vector<Eigen::Vector3d> precise;
+  precise.reserve(points.size());
   for (const Eigen::Vector3f& p : points)
-    coordinates.insert(coordinates.end(), { p.x(), p.y(), p.z() });
+    precise.push_back(p.cast<double>());
+  Plane plane;
+  if (!fitPlane(precise, Eigen::Vector3d::Zero(), &plane))
+    return { points, { Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ() } };
+  const ConvexHull both_sides{ points, { plane.normal, -plane.normal } };
   Qhull qhull;
-  if (!qhull.run(&coordinates))
-    return flatHull(points);
+  if (isFlat(precise, plane) || !qhull.run(&precise))
+    return both_sides;
   ConvexHull hull;
   qhT* qh = qhull.state();
   const facetT* facet = nullptr;
