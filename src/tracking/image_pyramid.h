@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+namespace object_modelling::tracking
+{
+/// Grey pyramid of one frame with its derivatives, made once for optical flow and patch refinement.
+class ImagePyramid
+{
+public:
+  ImagePyramid() = default;
+  explicit ImagePyramid(const cv::Mat& gray);
+
+  bool empty() const { return flow_.empty(); }
+  const std::vector<cv::Mat>& flow() const { return flow_; }      ///< as cv::buildOpticalFlowPyramid makes it
+  const std::vector<cv::Mat>& levels() const { return levels_; }  ///< grey levels alone, full resolution first
+  /// Copy of the grey levels without derivatives, for keeping.
+  std::vector<cv::Mat> copyLevels() const;
+  /// Mean absolute Laplacian at half resolution: what blur takes away. Over `mask` (full resolution) if not empty.
+  double sharpness(const cv::Mat& mask) const;
+
+private:
+  std::vector<cv::Mat> flow_;
+  std::vector<cv::Mat> levels_;
+};
+
+struct FlowFeature
+{
+  bool found = false;
+  Eigen::Vector2f pixel{ 0, 0 };
+};
+
+/// Where features of the last frame are in the current one (KLT, Bouguet's pyramid), started from `predicted`.
+std::vector<FlowFeature> trackFlow(const ImagePyramid& last, const ImagePyramid& current,
+                                   const std::vector<Eigen::Vector2f>& pixels,
+                                   const std::vector<Eigen::Vector2f>& predicted);
+
+}  // namespace object_modelling::tracking

@@ -1,0 +1,93 @@
+#include "keyframe_maker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <opencv2/imgproc.hpp>
+
+#include "depth_sampling.h"
+#include "object_modelling/rgbd/normals.h"
+
+namespace object_modelling::tracking
+{
+namespace
+{
+constexpr int MASK_MARGIN_PX = 4;  // half a patch must lie on the object
+
+/// Where a landmark may be: with depth, and well inside the object if only that counts.
+cv::Mat allowedMask(const rgbd::Frame& frame, bool object_only)
+{
+  cv::Mat allowed = frame.depth_m == frame.depth_m;  // false for NaN
+  if (object_only)
+  {
+    cv::Mat inner;
+    const cv::Mat element =
+        cv::getStructuringElement(cv::MORPH_RECT, cv::Size(2 * MASK_MARGIN_PX + 1, 2 * MASK_MARGIN_PX + 1));
+    cv::erode(frame.object_mask, inner, element);
+    allowed &= inner;
+  }
+  return allowed;
+}
+
+std::optional<Sighting> makeSighting(std::uint64_t landmark_id, const Eigen::Vector2f& pixel, const rgbd::Frame& frame,
+                                     const cv::Mat& normals)
+{
+  const float z_m = sampleDepth_m(frame.depth_m, pixel.x(), pixel.y());
+  const auto& normal =
+      normals.at<cv::Vec3f>(static_cast<int>(std::lround(pixel.y())), static_cast<int>(std::lround(pixel.x())));
+  if (std::isnan(z_m) || std::isnan(normal[0]))
+    return std::nullopt;
+  return Sighting{ landmark_id, pixel, frame.camera.unproject(pixel.x(), pixel.y(), z_m),
+                   Eigen::Vector3d(normal[0], normal[1], normal[2]) };
+}
+
+double medianDepth_m(const std::vector<Sighting>& sightings)
+{
+  if (sightings.empty())
+    return 1.0;
+  std::vector<double> depths_m;
+  for (const Sighting& sighting : sightings)
+    depths_m.push_back(sighting.p_keyframe.z());
+  std::nth_element(depths_m.begin(), depths_m.begin() + static_cast<std::ptrdiff_t>(depths_m.size() / 2),
+                   depths_m.end());
+  return depths_m[depths_m.size() / 2];
+}
+}  // namespace
+
+NewKeyframe makeKeyframe(int id, const rgbd::Frame& frame, const ImagePyramid& pyramid,
+                         const Eigen::Isometry3d& T_session_camera, const std::vector<LandmarkMatch>& matches,
+                         bool object_only, const FeatureDetectorOptions& options, std::uint64_t* next_landmark_id)
+{
+  NewKeyframe made;
+  const cv::Mat normals = rgbd::computeNormals(frame);
+  std::vector<Eigen::Vector2f> occupied;
+  for (const LandmarkMatch& match : matches)
+  {
+    const Eigen::Vector2f pixel = match.correspondence.pixel.cast<float>();
+    occupied.push_back(pixel);
+    made.keyframe.observations.push_back(
+        { match.landmark_id, pixel, static_cast<float>(match.correspondence.depth_m) });
+    if (const std::optional<Sighting> sighting = makeSighting(match.landmark_id, pixel, frame, normals))
+      made.map.sightings.push_back(*sighting);
+  }
+  for (const Eigen::Vector2f& pixel : detectFeatures(frame.gray, allowedMask(frame, object_only), occupied, options))
+  {
+    const std::optional<Sighting> sighting = makeSighting(*next_landmark_id, pixel, frame, normals);
+    if (!sighting)
+      continue;
+    ++*next_landmark_id;
+    made.map.sightings.push_back(*sighting);
+    made.keyframe.observations.push_back(
+        { sighting->landmark_id, pixel, static_cast<float>(sighting->p_keyframe.z()) });
+  }
+  made.keyframe.id = made.map.id = id;
+  made.keyframe.frame = made.map.frame = frame;
+  made.keyframe.T_session_camera = made.map.T_session_camera = T_session_camera;
+  made.map.median_depth_m = medianDepth_m(made.map.sightings);
+  made.map.pyramid = pyramid.copyLevels();
+  return made;
+}
+
+}  // namespace object_modelling::tracking

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <opencv2/core.hpp>
+
+#include "object_modelling/rgbd/keyframe.h"
+#include "wide_baseline_features.h"
+
+namespace object_modelling::tracking
+{
+/// A landmark as one keyframe sees it. A landmark found again in a later keyframe has a sighting there too, with the
+/// same id.
+struct Sighting
+{
+  std::uint64_t landmark_id = 0;
+  Eigen::Vector2f pixel;
+  Eigen::Vector3d p_keyframe;  ///< optical frame of that keyframe
+  Eigen::Vector3d n_keyframe;  ///< surface normal, towards that camera
+};
+
+/// What tracking keeps of a keyframe.
+struct MapKeyframe
+{
+  int id = -1;
+  Eigen::Isometry3d T_session_camera = Eigen::Isometry3d::Identity();
+  double median_depth_m = 1;
+  std::vector<cv::Mat> pyramid;  ///< grey, full resolution first
+  std::vector<Sighting> sightings;
+  rgbd::Frame frame;  ///< without colour
+  cv::Mat thumbnail;  ///< CV_32FC1, small, zero mean, unit norm: finds similar views quickly
+  /// Descriptors, made when first asked for: most keyframes are never relocalised against.
+  const WideBaselineFeatures& features() const;
+
+private:
+  mutable std::optional<WideBaselineFeatures> features_;
+};
+
+/// Small normalised image of a view for MapKeyframe::thumbnail.
+cv::Mat makeThumbnail(const cv::Mat& gray);
+
+/// Keyframes of one session and the questions that tracking asks about them. Not thread safe.
+class KeyframeMap
+{
+public:
+  void clear();
+  bool empty() const { return keyframes_.empty(); }
+  const MapKeyframe& add(MapKeyframe keyframe);
+  const std::vector<std::unique_ptr<MapKeyframe>>& keyframes() const { return keyframes_; }
+
+  /// Keyframes by predicted likeness of their view to a pose, the most alike first; those that look elsewhere left out.
+  std::vector<const MapKeyframe*> nearestViews(const Eigen::Isometry3d& T_session_camera, std::size_t count) const;
+
+  /// Whether no keyframe looks from within both an angle and a distance (as a share of its depth).
+  bool isNewView(const Eigen::Isometry3d& T_session_camera, double angle_rad, double distance_ratio) const;
+
+  /// Keyframes by likeness of the image, for when no pose is known.
+  std::vector<const MapKeyframe*> similarImages(const cv::Mat& thumbnail, std::size_t count) const;
+
+private:
+  std::vector<std::unique_ptr<MapKeyframe>> keyframes_;
+};
+
+}  // namespace object_modelling::tracking

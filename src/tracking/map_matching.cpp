@@ -1,0 +1,87 @@
+#include "map_matching.h"
+
+#include <cmath>
+#include <unordered_set>
+
+#include "depth_sampling.h"
+#include "patch_refinement.h"
+
+namespace object_modelling::tracking
+{
+namespace
+{
+constexpr double BORDER_PX = 10;
+constexpr double MIN_FACING_COSINE = 0.25;  // flatter patches have no texture left
+constexpr double MAX_OCCLUSION_STEP_RATIO =
+    0.05;  // measured depth nearer than predicted by more: something is in front
+constexpr double FLOW_ERROR_PX = 0.7;
+
+Eigen::Matrix3d calibration(const geometry::PinholeCamera& camera)
+{
+  Eigen::Matrix3d K;
+  K << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1;
+  return K;
+}
+
+bool onObject(const rgbd::Frame& frame, const Eigen::Vector2d& pixel)
+{
+  return frame.object_mask.empty() || frame.object_mask.at<std::uint8_t>(static_cast<int>(std::lround(pixel.y())),
+                                                                         static_cast<int>(std::lround(pixel.x()))) != 0;
+}
+
+bool occluded(const rgbd::Frame& frame, const Eigen::Vector2d& pixel, double z_m)
+{
+  const float depth_m =
+      frame.depthAt_m(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
+  return !std::isnan(depth_m) && depth_m < (1 - MAX_OCCLUSION_STEP_RATIO) * z_m;
+}
+}  // namespace
+
+MapMatches matchMap(const KeyframeMap& map, const rgbd::Frame& frame, const ImagePyramid& pyramid,
+                    const Eigen::Isometry3d& T_session_camera,
+                    const std::unordered_map<std::uint64_t, Eigen::Vector2f>& flow_pixels,
+                    const MapMatchingOptions& options)
+{
+  MapMatches result;
+  const Eigen::Matrix3d K = calibration(frame.camera);
+  std::unordered_set<std::uint64_t> tried;
+  bool nearest = true;
+  for (const MapKeyframe* reference : map.nearestViews(T_session_camera, options.reference_count))
+  {
+    const Eigen::Isometry3d T_current_reference = T_session_camera.inverse() * reference->T_session_camera;
+    int found = 0;
+    for (const Sighting& sighting : reference->sightings)
+    {
+      if (static_cast<int>(result.matches.size()) >= options.max_matches)
+        break;
+      const Eigen::Vector3d p = T_current_reference * sighting.p_keyframe;
+      if (p.z() < 0.05)
+        continue;
+      const Eigen::Vector2d predicted = frame.camera.project(p);
+      const double facing = -(T_current_reference.linear() * sighting.n_keyframe).dot(p.normalized());
+      if (!frame.camera.contains(predicted, BORDER_PX) || facing < MIN_FACING_COSINE || !onObject(frame, predicted) ||
+          occluded(frame, predicted, p.z()) || !tried.insert(sighting.landmark_id).second)
+        continue;
+      ++result.predicted_count;
+      const auto flow = flow_pixels.find(sighting.landmark_id);
+      const bool has_flow = flow != flow_pixels.end();
+      const Eigen::Matrix3d H = patchHomography(K, T_current_reference.linear(), T_current_reference.translation(),
+                                                sighting.n_keyframe, sighting.p_keyframe);
+      const PatchRefinement refined = refinePatch(reference->pyramid, pyramid.levels(), H, sighting.pixel,
+                                                  has_flow ? flow->second : Eigen::Vector2f(predicted.cast<float>()),
+                                                  has_flow ? FLOW_ERROR_PX : options.prediction_error_px);
+      if (!refined.accepted)
+        continue;
+      ++found;
+      result.matches.push_back({ sighting.landmark_id,
+                                 { reference->T_session_camera * sighting.p_keyframe, refined.pixel.cast<double>(),
+                                   sampleDepth_m(frame.depth_m, refined.pixel.x(), refined.pixel.y()) } });
+    }
+    if (nearest && !reference->sightings.empty())
+      result.reference_share = static_cast<double>(found) / static_cast<double>(reference->sightings.size());
+    nearest = false;
+  }
+  return result;
+}
+
+}  // namespace object_modelling::tracking

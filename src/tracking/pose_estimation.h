@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "object_modelling/geometry/pinhole_camera.h"
+#include "object_modelling/geometry/transform.h"
+
+namespace object_modelling::tracking
+{
+/// A known point and where the current frame sees it.
+struct Correspondence
+{
+  Eigen::Vector3d p_session;
+  Eigen::Vector2d pixel;
+  double depth_m = 0;  ///< measured in the current frame; NaN where it has none
+};
+
+struct PoseEstimationOptions
+{
+  double pixel_sigma_px = 0.5;
+  double max_reprojection_error_px = 2.5;  ///< inlier gate
+  double depth_gate_sigmas = 4.0;          ///< inlier gate on depth where there is one
+  int max_hypotheses = 200;
+  double confidence_ratio = 0.99;  ///< chance of having drawn one clean sample, at which RANSAC stops
+  int max_iterations = 10;         ///< of the least squares
+};
+
+struct PoseEstimate
+{
+  bool valid = false;
+  Eigen::Isometry3d T_session_camera = Eigen::Isometry3d::Identity();
+  geometry::Matrix6d covariance = geometry::Matrix6d::Zero();
+  std::vector<std::uint8_t> inliers;  ///< per correspondence
+  int inlier_count = 0;
+  double reprojection_rmse_px = 0;  ///< of the inliers
+};
+
+/// Robust least squares (Huber, iteratively re-weighted Gauss-Newton) on reprojection and depth, each with its sigma,
+/// from a start that is close.
+PoseEstimate refinePose(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
+                        const Eigen::Isometry3d& T_session_camera_start, const PoseEstimationOptions& options);
+
+/// Seeded, adaptive RANSAC on three 3-D to 3-D correspondences, `T_session_camera_prior` as its first hypothesis, and
+/// refinePose() on the result. Not valid for fewer than 4 correspondences.
+PoseEstimate estimatePose(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
+                          const Eigen::Isometry3d& T_session_camera_prior, std::uint64_t seed,
+                          const PoseEstimationOptions& options);
+
+}  // namespace object_modelling::tracking

@@ -1,0 +1,108 @@
+#include "relocaliser.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "depth_sampling.h"
+#include "object_modelling/rgbd/sensor_noise_model.h"
+
+namespace object_modelling::tracking
+{
+namespace
+{
+constexpr int MIN_CHECKED_LANDMARKS = 10;
+constexpr double DEPTH_AGREEMENT_SIGMAS = 6.0;
+constexpr double DEPTH_AGREEMENT_RATIO = 0.02;  // of the depth, for what oblique surfaces and pose noise add
+
+/// Share of a keyframe's landmarks in view at which the frame measures the depth that the pose predicts.
+double depthAgreement(const rgbd::Frame& frame, const MapKeyframe& keyframe, const Eigen::Isometry3d& T_session_camera)
+{
+  const Eigen::Isometry3d T_camera_keyframe = T_session_camera.inverse() * keyframe.T_session_camera;
+  int checked = 0;
+  int agreeing = 0;
+  for (const Sighting& sighting : keyframe.sightings)
+  {
+    const Eigen::Vector3d p = T_camera_keyframe * sighting.p_keyframe;
+    if (p.z() < 0.1)
+      continue;
+    const Eigen::Vector2d pixel = frame.camera.project(p);
+    if (!frame.camera.contains(pixel, 1))
+      continue;
+    const float depth_m =
+        frame.depthAt_m(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
+    if (std::isnan(depth_m))
+      continue;
+    ++checked;
+    agreeing += std::abs(depth_m - p.z()) <
+                DEPTH_AGREEMENT_SIGMAS * rgbd::axialSigma_m(p.z(), 0) + DEPTH_AGREEMENT_RATIO * p.z();
+  }
+  return checked >= MIN_CHECKED_LANDMARKS ? static_cast<double>(agreeing) / checked : 0.0;
+}
+
+std::vector<const MapKeyframe*> candidates(const rgbd::Frame& frame, const KeyframeMap& map,
+                                           const std::optional<Eigen::Isometry3d>& T_session_camera_hint,
+                                           const RelocaliserOptions& options)
+{
+  std::vector<const MapKeyframe*> chosen;
+  if (T_session_camera_hint)
+    chosen = map.nearestViews(*T_session_camera_hint, options.near_candidates);
+  for (const MapKeyframe* similar : map.similarImages(makeThumbnail(frame.gray), options.similar_candidates))
+    if (std::find(chosen.begin(), chosen.end(), similar) == chosen.end())
+      chosen.push_back(similar);
+  return chosen;
+}
+}  // namespace
+
+Relocalisation relocalise(const rgbd::Frame& frame, const KeyframeMap& map,
+                          const std::optional<Eigen::Isometry3d>& T_session_camera_hint, std::uint64_t seed,
+                          const RelocaliserOptions& options)
+{
+  Relocalisation best;
+  const WideBaselineFeatures features = detectWideBaselineFeatures(frame);
+  if (static_cast<int>(features.pixels.size()) < options.min_inliers)
+  {
+    best.reason = "only " + std::to_string(features.pixels.size()) + " features in view: covered, dark or plain";
+    return best;
+  }
+  PoseEstimationOptions pose_options;
+  pose_options.max_reprojection_error_px = options.max_reprojection_error_px;
+  pose_options.pixel_sigma_px = 1.0;
+  pose_options.max_hypotheses = 500;
+  std::size_t most_matches = 0;
+  int most_inliers = 0;
+  for (const MapKeyframe* keyframe : candidates(frame, map, T_session_camera_hint, options))
+  {
+    const WideBaselineFeatures& known = keyframe->features();
+    std::vector<Correspondence> correspondences;
+    for (const FeatureMatch& match : matchFeatures(features, known))
+    {
+      if (std::isnan(known.depths_m[match.index_b]))
+        continue;
+      const Eigen::Vector2f& pixel = known.pixels[match.index_b];
+      correspondences.push_back(
+          { keyframe->T_session_camera * frame.camera.unproject(pixel.x(), pixel.y(), known.depths_m[match.index_b]),
+            features.pixels[match.index_a].cast<double>(), features.depths_m[match.index_a] });
+    }
+    most_matches = std::max(most_matches, correspondences.size());
+    PoseEstimate pose = estimatePose(correspondences, frame.camera, keyframe->T_session_camera, seed, pose_options);
+    most_inliers = std::max(most_inliers, pose.inlier_count);
+    if (!pose.valid || pose.inlier_count < options.min_inliers ||
+        pose.inlier_count < options.min_inlier_ratio * static_cast<double>(correspondences.size()) ||
+        depthAgreement(frame, *keyframe, pose.T_session_camera) < options.min_depth_agreement_ratio)
+      continue;
+    if (!best.keyframe || pose.inlier_count > best.pose.inlier_count)
+    {
+      best.keyframe = keyframe;
+      best.pose = std::move(pose);
+    }
+    // A clear recognition needs no other candidate.
+    if (best.pose.inlier_count >= 3 * options.min_inliers)
+      break;
+  }
+  if (!best.keyframe)
+    best.reason = "no keyframe recognised: at best " + std::to_string(most_matches) + " matches, " +
+                  std::to_string(most_inliers) + " of them consistent";
+  return best;
+}
+
+}  // namespace object_modelling::tracking

@@ -1,0 +1,211 @@
+#include "tracker_implementation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "depth_sampling.h"
+#include "keyframe_maker.h"
+#include "object_modelling/rgbd/normals.h"
+
+namespace object_modelling::tracking
+{
+namespace
+{
+constexpr double MIN_REFERENCE_SHARE = 0.4;    // of the reference's landmarks: below it a keyframe is wanted ...
+constexpr double LAST_REFERENCE_SHARE = 0.25;  // ... and below this it is taken even from a blurred frame
+constexpr double MAX_KEYFRAME_BLUR_RATIO = 0.5;
+constexpr double MAX_KEYFRAME_ANGULAR_SPEED_RAD_PER_S = 2.5;
+constexpr int MIN_FRAMES_BETWEEN_KEYFRAMES = 3;
+constexpr double SHARPNESS_DECAY_RATIO = 0.998;  // per frame, so that a plainer side of the scene becomes the measure
+}  // namespace
+
+std::string CameraTracker::Implementation::refuse(const rgbd::Frame& frame) const
+{
+  if (frame.gray.empty() || frame.gray.size() != frame.depth_m.size())
+    return "frame without images of one size";
+  if (objectOnly() && (frame.object_mask.empty() || cv::countNonZero(frame.object_mask) == 0))
+    return "frame has no object mask, which tracking by the object needs";
+  if (frame_count_ == 0)
+    return {};
+  if (!(frame.stamp_s > last_stamp_s_))
+    return "stamp " + std::to_string(frame.stamp_s) + " s is not newer than that of the last frame, " +
+           std::to_string(last_stamp_s_) + " s";
+  if (!map_.empty() && !(frame.camera == camera_))
+    return "camera of " + std::to_string(frame.camera.width) + " x " + std::to_string(frame.camera.height) +
+           " px differs from that of the session, " + std::to_string(camera_.width) + " x " +
+           std::to_string(camera_.height) + " px (size or intrinsics)";
+  return {};
+}
+
+TrackingResult CameraTracker::Implementation::track(const rgbd::Frame& frame)
+{
+  TrackingResult result;
+  result.stamp_s = frame.stamp_s;
+  result.status = map_.empty() ? TrackingStatus::NOT_STARTED : TrackingStatus::LOST;
+  result.reason = refuse(frame);
+  if (!result.reason.empty())
+    return result;
+  ++frame_count_;
+  ++frames_since_keyframe_;
+  last_stamp_s_ = frame.stamp_s;
+
+  const ImagePyramid pyramid(frame.gray);
+  result.blur_ratio = updateBlur(frame, pyramid);
+  if (map_.empty())
+  {
+    start(frame, pyramid, &result);
+    if (result.tracked())
+      last_pyramid_ = pyramid;
+    return result;
+  }
+
+  result.feature_count = static_cast<int>(last_inliers_.size());
+  Placement placement = placeByFlow(frame, pyramid);
+  if (!placement.pose.valid)
+  {
+    const std::string reason = placement.reason;
+    placement = placeByRecognition(frame, pyramid);
+    if (!placement.pose.valid)
+    {
+      lost_ = true;
+      result.reason = reason + "; " + placement.reason;
+      return result;
+    }
+  }
+  result.status = lost_ ? TrackingStatus::RELOCALISED : TrackingStatus::TRACKING;
+  if (lost_)
+    result.reason = "recognised a known view again";
+  motion_.add(frame.stamp_s, placement.pose.T_session_camera, !lost_);
+  lost_ = false;
+  last_placed_s_ = frame.stamp_s;
+  result.T_session_camera = placement.pose.T_session_camera;
+  result.covariance = placement.pose.covariance;
+  result.inlier_count = placement.pose.inlier_count;
+  result.reprojection_rmse_px = placement.pose.reprojection_rmse_px;
+  result.speed_m_per_s = motion_.speed_m_per_s();
+  result.angular_speed_rad_per_s = motion_.angularSpeed_rad_per_s();
+  considerKeyframe(frame, pyramid, placement, &result);
+  last_pyramid_ = pyramid;
+  return result;
+}
+
+void CameraTracker::Implementation::start(const rgbd::Frame& frame, const ImagePyramid& pyramid, TrackingResult* result)
+{
+  camera_ = frame.camera;
+  addKeyframe(frame, pyramid, Eigen::Isometry3d::Identity(), {}, result);
+  result->inlier_count = result->feature_count = static_cast<int>(last_inliers_.size());
+  if (result->inlier_count < options_.min_inliers)
+  {
+    result->reason = "only " + std::to_string(result->inlier_count) + " features with depth in view (at least " +
+                     std::to_string(options_.min_inliers) +
+                     " are needed): is the lens covered, the scene dark or plain, or the camera nearer than its range?";
+    reset();
+    result->keyframe.reset();
+    return;
+  }
+  result->status = TrackingStatus::TRACKING;
+  motion_.add(frame.stamp_s, result->T_session_camera, false);
+  last_placed_s_ = frame.stamp_s;
+}
+
+void CameraTracker::Implementation::considerKeyframe(const rgbd::Frame& frame, const ImagePyramid& pyramid,
+                                                     const Placement& placement, TrackingResult* result)
+{
+  last_inliers_ = placement.inliers;
+  const bool running_out =
+      placement.reference_share < LAST_REFERENCE_SHARE || result->inlier_count < 3 * options_.min_inliers / 2;
+  const bool wanted =
+      running_out || placement.wide_baseline || placement.reference_share < MIN_REFERENCE_SHARE ||
+      map_.isNewView(result->T_session_camera, options_.keyframe_angle_rad, options_.keyframe_distance_ratio);
+  if (!wanted || (!placement.wide_baseline && frames_since_keyframe_ < MIN_FRAMES_BETWEEN_KEYFRAMES))
+    return;
+  // A view that was found again without flow adds nothing if the map has it already.
+  if (placement.wide_baseline && placement.reference_share >= MIN_REFERENCE_SHARE)
+    return;
+  if (!running_out && result->blur_ratio > MAX_KEYFRAME_BLUR_RATIO)
+  {
+    result->reason = "keyframe refused: blurred (" + std::to_string(result->blur_ratio) + "), move slower";
+    return;
+  }
+  if (!running_out && !placement.wide_baseline &&
+      result->angular_speed_rad_per_s > MAX_KEYFRAME_ANGULAR_SPEED_RAD_PER_S)
+  {
+    result->reason =
+        "keyframe refused: turning at " + std::to_string(result->angular_speed_rad_per_s) + " rad/s, move slower";
+    return;
+  }
+  addKeyframe(frame, pyramid, result->T_session_camera, placement.inliers, result);
+}
+
+void CameraTracker::Implementation::addKeyframe(const rgbd::Frame& frame, const ImagePyramid& pyramid,
+                                                const Eigen::Isometry3d& T_session_camera,
+                                                const std::vector<LandmarkMatch>& matches, TrackingResult* result)
+{
+  FeatureDetectorOptions detector;
+  detector.max_features = options_.max_features;
+  NewKeyframe made = makeKeyframe(next_keyframe_id_++, frame, pyramid, T_session_camera, matches, objectOnly(),
+                                  detector, &next_landmark_id_);
+  made.keyframe.covariance = result->covariance;
+  const MapKeyframe& added = map_.add(std::move(made.map));
+  result->keyframe = std::move(made.keyframe);
+  frames_since_keyframe_ = 0;
+  last_inliers_.clear();
+  for (const Sighting& sighting : added.sightings)
+    last_inliers_.push_back(
+        { sighting.landmark_id,
+          { T_session_camera * sighting.p_keyframe, sighting.pixel.cast<double>(), sighting.p_keyframe.z() } });
+}
+
+double CameraTracker::Implementation::updateBlur(const rgbd::Frame& frame, const ImagePyramid& pyramid)
+{
+  const double sharpness = pyramid.sharpness(objectOnly() ? frame.object_mask : cv::Mat());
+  sharpest_ = std::max(sharpness, SHARPNESS_DECAY_RATIO * sharpest_);
+  return sharpest_ > 0 ? 1 - sharpness / sharpest_ : 0;
+}
+
+void CameraTracker::Implementation::reset()
+{
+  const CameraTrackerOptions options = options_;
+  *this = Implementation(options);
+}
+
+void CameraTracker::Implementation::resume(const std::vector<rgbd::Keyframe>& keyframes)
+{
+  reset();
+  for (const rgbd::Keyframe& keyframe : keyframes)
+  {
+    MapKeyframe known;
+    known.id = keyframe.id;
+    known.T_session_camera = keyframe.T_session_camera;
+    known.frame = keyframe.frame;
+    known.pyramid = ImagePyramid(keyframe.frame.gray).copyLevels();
+    const cv::Mat normals = rgbd::computeNormals(keyframe.frame);
+    std::vector<double> depths_m;
+    for (const rgbd::Observation& observation : keyframe.observations)
+    {
+      next_landmark_id_ = std::max(next_landmark_id_, observation.landmark_id + 1);
+      const auto& n = normals.at<cv::Vec3f>(static_cast<int>(std::lround(observation.pixel.y())),
+                                            static_cast<int>(std::lround(observation.pixel.x())));
+      if (std::isnan(observation.depth_m) || std::isnan(n[0]))
+        continue;
+      depths_m.push_back(observation.depth_m);
+      known.sightings.push_back(
+          { observation.landmark_id, observation.pixel,
+            keyframe.frame.camera.unproject(observation.pixel.x(), observation.pixel.y(), observation.depth_m),
+            Eigen::Vector3d(n[0], n[1], n[2]) });
+    }
+    if (!depths_m.empty())
+    {
+      std::nth_element(depths_m.begin(), depths_m.begin() + static_cast<std::ptrdiff_t>(depths_m.size() / 2),
+                       depths_m.end());
+      known.median_depth_m = depths_m[depths_m.size() / 2];
+    }
+    next_keyframe_id_ = std::max(next_keyframe_id_, keyframe.id + 1);
+    camera_ = keyframe.frame.camera;
+    map_.add(std::move(known));
+    lost_ = true;
+  }
+}
+
+}  // namespace object_modelling::tracking

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "keyframe_map.h"
+#include "map_matching.h"
+#include "motion_model.h"
+#include "object_modelling/tracking/camera_tracker.h"
+#include "pose_estimation.h"
+
+namespace object_modelling::tracking
+{
+/// State and steps behind CameraTracker.
+class CameraTracker::Implementation
+{
+public:
+  explicit Implementation(const CameraTrackerOptions& options) : options_(options) {}
+
+  TrackingResult track(const rgbd::Frame& frame);
+  void reset();
+  void resume(const std::vector<rgbd::Keyframe>& keyframes);
+  std::optional<Eigen::Isometry3d> predict(double stamp_s) const { return motion_.predict(stamp_s); }
+
+private:
+  /// A frame that has been placed, or why it has not.
+  struct Placement
+  {
+    PoseEstimate pose;                   ///< valid if placed
+    std::vector<LandmarkMatch> inliers;  ///< what the pose rests on
+    double reference_share = 0;
+    bool wide_baseline = false;  ///< found without optical flow
+    std::string reason;
+  };
+
+  std::string refuse(const rgbd::Frame& frame) const;
+  Placement placeByFlow(const rgbd::Frame& frame, const ImagePyramid& pyramid) const;
+  Placement placeByRecognition(const rgbd::Frame& frame, const ImagePyramid& pyramid) const;
+  /// Looks for the map's landmarks from a rough pose and estimates the final one; `flow` are inliers of optical flow.
+  Placement placeByMap(const rgbd::Frame& frame, const ImagePyramid& pyramid, const Eigen::Isometry3d& T_session_camera,
+                       const std::vector<LandmarkMatch>& flow, double prediction_error_px) const;
+  std::string implausible(const rgbd::Frame& frame, const Eigen::Isometry3d& T_session_camera) const;
+
+  void start(const rgbd::Frame& frame, const ImagePyramid& pyramid, TrackingResult* result);
+  /// Decides on a keyframe; gives why a wanted one was refused.
+  void considerKeyframe(const rgbd::Frame& frame, const ImagePyramid& pyramid, const Placement& placement,
+                        TrackingResult* result);
+  void addKeyframe(const rgbd::Frame& frame, const ImagePyramid& pyramid, const Eigen::Isometry3d& T_session_camera,
+                   const std::vector<LandmarkMatch>& matches, TrackingResult* result);
+  double updateBlur(const rgbd::Frame& frame, const ImagePyramid& pyramid);
+  std::uint64_t seed() const { return options_.seed * 1000003 + frame_count_; }
+  bool objectOnly() const { return options_.reference == Reference::OBJECT; }
+  PoseEstimationOptions poseOptions() const;
+
+  CameraTrackerOptions options_;
+  KeyframeMap map_;
+  MotionModel motion_;
+  geometry::PinholeCamera camera_;
+  double last_stamp_s_ = 0;
+  std::uint64_t frame_count_ = 0;
+  std::uint64_t next_landmark_id_ = 0;
+  int next_keyframe_id_ = 0;
+  int frames_since_keyframe_ = 0;
+  bool lost_ = false;
+  double sharpest_ = 0;
+  ImagePyramid last_pyramid_;  ///< of the last frame that was placed
+  double last_placed_s_ = 0;
+  std::vector<LandmarkMatch> last_inliers_;  ///< landmarks followed by optical flow
+};
+
+}  // namespace object_modelling::tracking

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include "object_modelling/rgbd/frame.h"
+
+namespace object_modelling::tracking
+{
+/// Features that are recognised from other directions and distances, with their points where there is depth.
+struct WideBaselineFeatures
+{
+  std::vector<Eigen::Vector2f> pixels;
+  std::vector<float> depths_m;  ///< NaN where missing
+  cv::Mat descriptors;          ///< one row each
+};
+
+/// SIFT (AKAZE before OpenCV 4.4) on the frame's object mask, or on all of it where it has none.
+WideBaselineFeatures detectWideBaselineFeatures(const rgbd::Frame& frame);
+
+struct FeatureMatch
+{
+  int index_a = -1;
+  int index_b = -1;
+};
+
+/// Mutual nearest neighbours that pass the ratio test (Lowe 2004) in both directions.
+std::vector<FeatureMatch> matchFeatures(const WideBaselineFeatures& a, const WideBaselineFeatures& b);
+
+}  // namespace object_modelling::tracking
