@@ -74,6 +74,21 @@ std::vector<SightGroup> restrictTo(const std::vector<int>& members, const std::v
   return result;
 }
 
+class WeightedMeanSquare
+{
+public:
+  void add(double value, double weight)
+  {
+    sum_ += weight * value * value;
+    weight_ += weight;
+  }
+  double root() const { return weight_ > 0 ? std::sqrt(sum_ / weight_) : 0; }
+
+private:
+  double sum_ = 0;
+  double weight_ = 0;
+};
+
 /// The adjustment of one set of keyframes and landmarks, and its outcome.
 struct Adjustment
 {
@@ -249,34 +264,34 @@ private:
     return result;
   }
 
+  /// Coarse features count less, in proportion to their precision.
   void reportResiduals(const BundleState& before, const BundleState& after, BundleAdjustmentResult* result) const
   {
-    std::vector<int> depth_count(keyframes_.size(), 0);
+    std::vector<WeightedMeanSquare> pixel_before(keyframes_.size()), pixel_after(keyframes_.size());
+    std::vector<WeightedMeanSquare> depth_before(keyframes_.size()), depth_after(keyframes_.size());
     for (const Sight& sight : after.map.sights)
     {
-      const geometry::PinholeCamera& camera = keyframes_[sight.keyframe].frame.camera;
-      const SightError error_after = sightError(sight, camera, after);
-      const SightError error_before = sightError(sight, camera, before);
-      if (error_after.pixel_px > OUTLIER_SIGMAS * sight.sigma_px || !std::isfinite(error_before.pixel_px))
+      const int k = sight.keyframe;
+      const SightError error_before = sightError(sight, keyframes_[k].frame.camera, before);
+      const SightError error_after = sightError(sight, keyframes_[k].frame.camera, after);
+      if (!std::isfinite(error_before.pixel_px) || !std::isfinite(error_after.pixel_px))
         continue;
-      KeyframeResidual& residual = result->residuals[sight.keyframe];
-      ++residual.observation_count;
-      residual.reprojection_rmse_before_px += error_before.pixel_px * error_before.pixel_px;
-      residual.reprojection_rmse_after_px += error_after.pixel_px * error_after.pixel_px;
+      ++result->residuals[k].observation_count;
+      const double weight = 1 / (sight.sigma_px * sight.sigma_px);
+      pixel_before[k].add(error_before.pixel_px, weight);
+      pixel_after[k].add(error_after.pixel_px, weight);
       if (!(sight.depth_m > 0))
         continue;
-      ++depth_count[sight.keyframe];
-      residual.depth_rmse_before_m += error_before.depth_m * error_before.depth_m;
-      residual.depth_rmse_after_m += error_after.depth_m * error_after.depth_m;
+      depth_before[k].add(error_before.depth_m, weight);
+      depth_after[k].add(error_after.depth_m, weight);
     }
-    const auto root = [](double sum, int count) { return count > 0 ? std::sqrt(sum / count) : 0.0; };
     for (std::size_t k = 0; k < keyframes_.size(); ++k)
     {
       KeyframeResidual& residual = result->residuals[k];
-      residual.reprojection_rmse_before_px = root(residual.reprojection_rmse_before_px, residual.observation_count);
-      residual.reprojection_rmse_after_px = root(residual.reprojection_rmse_after_px, residual.observation_count);
-      residual.depth_rmse_before_m = root(residual.depth_rmse_before_m, depth_count[k]);
-      residual.depth_rmse_after_m = root(residual.depth_rmse_after_m, depth_count[k]);
+      residual.reprojection_rmse_before_px = pixel_before[k].root();
+      residual.reprojection_rmse_after_px = pixel_after[k].root();
+      residual.depth_rmse_before_m = depth_before[k].root();
+      residual.depth_rmse_after_m = depth_after[k].root();
     }
   }
 

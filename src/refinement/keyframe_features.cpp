@@ -18,12 +18,16 @@ constexpr float MAX_DEPTH_STEP_RATIO = 0.02f;
 
 #if CV_VERSION_MAJOR > 4 || (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR >= 4)
 constexpr int DESCRIPTOR_NORM = cv::NORM_L2;
+// SIFT starts from an image of twice the size but maps its pixel centres back as x / 2, not (x + 1/2) / 2 - 1/2
+// (measured on Gaussian blobs: +0.24 px in x and y at any scale).
+constexpr float PIXEL_OFFSET_PX = 0.25f;
 cv::Ptr<cv::Feature2D> makeDetector(int max_features)
 {
   return cv::SIFT::create(max_features, 3, 0.02);
 }
 #else
 constexpr int DESCRIPTOR_NORM = cv::NORM_HAMMING;
+constexpr float PIXEL_OFFSET_PX = 0;
 cv::Ptr<cv::Feature2D> makeDetector(int /*max_features*/)
 {
   return cv::AKAZE::create();
@@ -61,6 +65,16 @@ cv::Mat insideOf(const cv::Mat& mask)
   return inside;
 }
 
+/// Bounding box of the mask with room for the patches of features near its rim.
+cv::Rect surroundings(const cv::Mat& mask)
+{
+  constexpr int ROOM_PX = 32;
+  const cv::Rect box = cv::boundingRect(mask);
+  if (box.empty())
+    return {};
+  return (box - cv::Point(ROOM_PX, ROOM_PX) + cv::Size(2 * ROOM_PX, 2 * ROOM_PX)) & cv::Rect({ 0, 0 }, mask.size());
+}
+
 /// The nearest two of a row or column of the distance matrix.
 struct NearestTwo
 {
@@ -82,6 +96,27 @@ struct NearestTwo
   bool distinct(double max_ratio) const { return first < max_ratio * second; }
 };
 
+/// CV_32FC1, squared for NORM_L2. One matrix product for those: twice as fast as difference by difference, and exact,
+/// as SIFT's descriptors hold whole numbers below 256.
+cv::Mat distanceMatrix(const cv::Mat& a, const cv::Mat& b, int norm)
+{
+  cv::Mat distances(a.rows, b.rows, CV_32F);
+  if (norm != cv::NORM_L2)
+  {
+    cv::Mat counts;
+    cv::batchDistance(a, b, counts, CV_32S, cv::noArray(), norm);
+    counts.convertTo(distances, CV_32F);
+    return distances;
+  }
+  using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::Map<const Rows> A(a.ptr<float>(), a.rows, a.cols), B(b.ptr<float>(), b.rows, b.cols);
+  Eigen::Map<Rows> D(distances.ptr<float>(), a.rows, b.rows);
+  D.noalias() = -2 * A * B.transpose();
+  D.colwise() += A.rowwise().squaredNorm();
+  D.rowwise() += B.rowwise().squaredNorm().transpose();
+  return distances;
+}
+
 }  // namespace
 
 KeyframeFeatures detectFeatures(const rgbd::Frame& frame, int max_features, bool object_only)
@@ -92,8 +127,14 @@ KeyframeFeatures detectFeatures(const rgbd::Frame& frame, int max_features, bool
     return result;
   const cv::Ptr<cv::Feature2D> detector = makeDetector(max_features);
   std::vector<cv::KeyPoint> keypoints;
+  // The object is often a small part of the image, and time goes with the area.
+  const cv::Rect area = object_only ? surroundings(frame.object_mask) : cv::Rect({ 0, 0 }, frame.gray.size());
+  if (area.empty())
+    return result;
+  const cv::Point2f corner(area.tl());
   cv::Mat descriptors;
-  detector->detectAndCompute(frame.gray, object_only ? insideOf(frame.object_mask) : cv::Mat(), keypoints, descriptors);
+  detector->detectAndCompute(frame.gray(area), object_only ? insideOf(frame.object_mask)(area) : cv::Mat(), keypoints,
+                             descriptors);
 
   std::vector<int> order(keypoints.size());
   std::iota(order.begin(), order.end(), 0);
@@ -108,11 +149,12 @@ KeyframeFeatures detectFeatures(const rgbd::Frame& frame, int max_features, bool
   for (int index : order)
   {
     const cv::KeyPoint& keypoint = keypoints[index];
+    const cv::Point2f pixel = keypoint.pt + corner - cv::Point2f(PIXEL_OFFSET_PX, PIXEL_OFFSET_PX);
     Feature feature;
-    feature.pixel = { keypoint.pt.x, keypoint.pt.y };
+    feature.pixel = { pixel.x, pixel.y };
     feature.scale_px = keypoint.size;
-    feature.depth_m = depthUnder(frame, keypoint.pt);
-    feature.p_camera = frame.camera.unproject(keypoint.pt.x, keypoint.pt.y, feature.depth_m);
+    feature.depth_m = depthUnder(frame, pixel);
+    feature.p_camera = frame.camera.unproject(pixel.x, pixel.y, feature.depth_m);
     result.features.push_back(feature);
     result.descriptors.push_back(descriptors.row(index));
   }
@@ -127,12 +169,8 @@ std::vector<FeatureMatch> matchFeatures(const KeyframeFeatures& a, const Keyfram
   std::vector<FeatureMatch> result;
   if (rows_a < 2 || rows_b < 2)
     return result;
-  cv::Mat distances;
-  cv::batchDistance(a.descriptors.rowRange(0, rows_a), b.descriptors.rowRange(0, rows_b), distances,
-                    a.norm == cv::NORM_L2 ? CV_32F : CV_32S, cv::noArray(), a.norm);
-  if (distances.type() != CV_32FC1)
-    distances.convertTo(distances, CV_32F);
-
+  const cv::Mat distances =
+      distanceMatrix(a.descriptors.rowRange(0, rows_a), b.descriptors.rowRange(0, rows_b), a.norm);
   std::vector<NearestTwo> of_a(rows_a), of_b(rows_b);
   for (int i = 0; i < rows_a; ++i)
   {
@@ -143,11 +181,12 @@ std::vector<FeatureMatch> matchFeatures(const KeyframeFeatures& a, const Keyfram
       of_b[j].add(i, row[j]);
     }
   }
+  const double ratio = a.norm == cv::NORM_L2 ? max_ratio * max_ratio : max_ratio;
   for (int i = 0; i < rows_a; ++i)
   {
     const int j = of_a[i].index;
-    if (j >= 0 && of_b[j].index == i && of_a[i].distinct(max_ratio) && of_b[j].distinct(max_ratio))
-      result.push_back({ i, j, of_a[i].first });
+    if (j >= 0 && of_b[j].index == i && of_a[i].distinct(ratio) && of_b[j].distinct(ratio))
+      result.push_back({ i, j });
   }
   return result;
 }

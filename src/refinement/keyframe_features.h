@@ -31,7 +31,6 @@ KeyframeFeatures detectFeatures(const rgbd::Frame& frame, int max_features, bool
 struct FeatureMatch
 {
   int a = -1, b = -1;  ///< indices into the features
-  float distance = 0;
 };
 
 /// Mutual nearest neighbours that pass Lowe's ratio test, by `a`. Uses the first `first_a`, `first_b` features (those
