@@ -87,9 +87,9 @@ class ModellingManager:
             try:
                 answer = self._jobs.stop_tracking()
             except Failure as failure:
+                # If the tracker records all the same, its next report says so.
                 with self._lock:
-                    if isinstance(failure, NodeDown) or failure.code == Code.FAILED_PRECONDITION:
-                        self._state.tracker_lost()
+                    self._state.tracker_lost()
                     self._failed(failure)
                 raise
             with self._lock:

@@ -42,6 +42,8 @@ class ModellingState:
         self._check_not_building("start a session")
 
     def started(self, session_id):
+        if self.is_recording(session_id):
+            return  # the tracker's report was faster than its answer
         self.state = State.RECORDING
         self.session_id = session_id
         self.keyframe_count = 0

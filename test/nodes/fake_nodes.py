@@ -11,11 +11,14 @@ from object_modelling.outcome import Code
 class FakeRecording:
     """camera_tracker and keyframe_store: sessions get three keyframes each."""
 
+    _state = None  # made once: subscribers miss a publisher that goes and comes back
+
     def __init__(self):
         self.sessions = {}
         self.recording = ""
         self.fail_stop = False
-        self._state = rospy.Publisher("camera_tracker/state", msg.TrackingState, queue_size=5, latch=True)
+        if FakeRecording._state is None:
+            FakeRecording._state = rospy.Publisher("camera_tracker/state", msg.TrackingState, queue_size=5)
         self._services = [
             rospy.Service("camera_tracker/start", srv.StartTracking, self._start),
             rospy.Service("camera_tracker/stop", srv.StopTracking, self._stop),
@@ -36,7 +39,6 @@ class FakeRecording:
     def shutdown(self):
         for service in self._services:
             service.shutdown("end of test")
-        self._state.unregister()
 
     def _start(self, request):
         if request.session_id in self.sessions and not request.resume:
@@ -48,6 +50,7 @@ class FakeRecording:
 
     def _stop(self, _):
         if self.fail_stop:
+            self.publish(False, self.recording, 3)
             return srv.StopTrackingResponse(status=msg.Status(Code.STORAGE, "disk full"))
         session_id, self.recording = self.recording, ""
         self.publish(False, session_id, 3)

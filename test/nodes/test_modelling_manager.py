@@ -40,7 +40,6 @@ class ManagerTest(unittest.TestCase):
             job.gate.set()
         self.wait_until(lambda: self.state.state != ManagerState.BUILDING, "the build has ended")
         if self.state.state == ManagerState.RECORDING:
-            self.recording.fail_stop = False
             self.call("stop_session", srv.StopSession)
         self.recording.shutdown()
 
@@ -108,7 +107,8 @@ class RecordingTest(ManagerTest):
         self.start("s1", resume=True)
         self.recording.fail_stop = True
         self.refused(Code.STORAGE, "disk full", "stop_session", srv.StopSession)
-        self.assertEqual(self.state.state, ManagerState.RECORDING)
+        self.wait_until(lambda: self.state.status.code == Code.STORAGE, "the reason in ~state")
+        self.assertEqual(self.state.state, ManagerState.IDLE)
 
     def test_nodes_down_are_named(self):
         self.recording.shutdown()

@@ -79,6 +79,12 @@ class TrackerReportTest(unittest.TestCase):
         self.assertEqual(self.state.tracker_reported(False, "", 0), (False, None))
         self.assertTrue(self.state.is_recording("s1"))
 
+    def test_report_before_the_answer_to_start(self):
+        self.state.tracker_reported(True, "s1", 1)
+        self.state.started("s1")
+        self.assertEqual(self.state.keyframe_count, 1)
+        self.assertTrue(self.state.tracker_reported(False, "", 0)[0])
+
     def test_old_report_after_stop_is_ignored(self):
         self.state.started("s1")
         self.state.tracker_reported(True, "s1", 3)

@@ -1,0 +1,120 @@
+#include "model_builder.h"
+
+#include <filesystem>
+
+#include "../common/data_path.h"
+#include "object_modelling/ros_bridge/pose_conversion.h"
+
+namespace object_modelling::nodes
+{
+namespace
+{
+geometry_msgs::Vector3 toMessage(const Eigen::Vector3d& vector)
+{
+  geometry_msgs::Vector3 message;
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+  return message;
+}
+
+object_modelling::ObjectSummary toMessage(const database::ObjectEntry& entry)
+{
+  object_modelling::ObjectSummary message;
+  message.object_id = entry.id;
+  message.name = entry.name;
+  message.size_m = toMessage(entry.size_m);
+  message.diameter_m = entry.diameter_m;
+  for (const database::ModelSession& session : entry.sessions)
+    message.session_ids.push_back(session.id);
+  message.content_hash = entry.content_hash;
+  message.mesh_path = entry.mesh_path;
+  return message;
+}
+
+std::vector<alignment::SessionPlacement> placementsOf(const object_modelling::BuildGoal& goal)
+{
+  std::vector<alignment::SessionPlacement> placements;
+  for (const object_modelling::SessionPlacement& message : goal.placements)
+  {
+    alignment::SessionPlacement placement;
+    placement.session_id = message.session_id;
+    const bool left_zero = message.reference_from_session == geometry_msgs::Pose();
+    if (!left_zero || goal.placements.size() > 1)
+      placement.T_reference_session = ros_bridge::fromMessage(message.reference_from_session);
+    placements.push_back(placement);
+  }
+  return placements;
+}
+
+object_modelling::BuiltObject toMessage(const pipeline::BuildReport& report, const std::string& object_id)
+{
+  object_modelling::BuiltObject message;
+  message.object_id = object_id;
+  message.object_folder = report.object_folder;
+  message.preview_path = report.preview_path;
+  message.size_m = toMessage(report.size_m);
+  message.diameter_m = report.diameter_m;
+  message.point_count = report.point_count;
+  message.vertex_count = report.vertex_count;
+  message.triangle_count = report.triangle_count;
+  for (const char* stage : { "load", "fuse", "surface", "write" })
+  {
+    const auto found = report.stage_s.find(stage);
+    if (found == report.stage_s.end())
+      continue;
+    object_modelling::StageTime time;
+    time.stage = stage;
+    time.duration_s = found->second;
+    message.stages.push_back(time);
+  }
+  return message;
+}
+}  // namespace
+
+ModelBuilder::ModelBuilder(ros::NodeHandle& node, ros::NodeHandle& private_node, const ModelBuilderOptions& options)
+  : options_(options)
+  , database_path_(dataPath(options.database_path, "objects"))
+  , store_(node, options.store)
+  , preview_(private_node, options.session_frame_id)
+  , list_objects_(private_node.advertiseService("list_objects", &ModelBuilder::listObjects, this))
+  , server_(
+        private_node, "build", [](const object_modelling::BuildGoal& goal) { return "build " + goal.object_id; },
+        [this](const object_modelling::BuildGoal& goal, base::JobControl& control) { return build(goal, control); })
+{
+}
+
+object_modelling::BuildResult ModelBuilder::build(const object_modelling::BuildGoal& goal, base::JobControl& control)
+{
+  const std::vector<alignment::SessionPlacement> placements = placementsOf(goal);
+  // Before the long work: a folder that cannot be written is known at once.
+  database::ObjectDatabase database(database_path_, true);
+  pipeline::BuildOptions build_options = options_.build;
+  build_options.replace = goal.replace;
+  const pipeline::BuildReport report =
+      pipeline::buildObject(store_, database, goal.object_id, goal.name, placements, build_options, control);
+  object_modelling::BuildResult result;
+  result.status = ros_bridge::toMessage(report.status);
+  if (!report.status.ok())
+    return result;
+  result.built = toMessage(report, goal.object_id);
+  const database::ObjectEntry entry = database.entry(goal.object_id);
+  result.built.mesh_path = entry.mesh_path;
+  const base::Status shown = ros_bridge::guarded([&] { preview_.show(entry, placements.back().session_id); });
+  if (!shown.ok())
+    ROS_WARN("'%s' is built, but its preview cannot be shown: %s", goal.object_id.c_str(), shown.message.c_str());
+  return result;
+}
+
+bool ModelBuilder::listObjects(object_modelling::ListObjects::Request&, object_modelling::ListObjects::Response& response)
+{
+  return ros_bridge::answer(response, [&] {
+    response.database_path = database_path_;
+    if (!std::filesystem::exists(database_path_))
+      return;  // made by the first build
+    for (const database::ObjectEntry& entry : database::ObjectDatabase(database_path_, false).list())
+      response.objects.push_back(toMessage(entry));
+  });
+}
+
+}  // namespace object_modelling::nodes

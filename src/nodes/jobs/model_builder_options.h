@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "../common/store_parameters.h"
+#include "object_modelling/base/options.h"
+#include "object_modelling/pipeline/build_object.h"
+
+namespace object_modelling::nodes
+{
+struct ModelBuilderOptions
+{
+  std::string database_path;  ///< folder of the object database, made if it does not exist; see dataPath("objects")
+  std::string session_frame_id = "session";  ///< of the previews: the model is shown where the object stood
+  pipeline::BuildOptions build;              ///< `replace` comes with each goal
+  ros_bridge::RemoteSessionStoreOptions store;
+
+  std::vector<std::string> violations() const
+  {
+    base::OptionsCheck check("model_builder");
+    check.require("session_frame_id", !session_frame_id.empty() && session_frame_id.front() != '/',
+                  "must be a frame id without leading slash");
+    check.include(build.violations());
+    return check.violations();
+  }
+};
+
+template <typename Reader>
+void read(Reader& reader, ModelBuilderOptions* options)
+{
+  reader.read("database_path", options->database_path);
+  reader.read("session_frame_id", options->session_frame_id);
+  reader.read("fusion/resolution_m", options->build.fusion.resolution_m);
+  reader.read("fusion/averaging_radius_m", options->build.fusion.averaging_radius_m);
+  reader.read("fusion/min_weight", options->build.fusion.min_weight);
+  reader.read("fusion/consistency_sigmas", options->build.fusion.consistency_sigmas);
+  reader.read("fusion/min_views", options->build.fusion.min_views);
+  reader.read("fusion/weight/theta_max_rad", options->build.fusion.weight.theta_max_rad);
+  reader.read("fusion/weight/sigma_lateral_m", options->build.fusion.weight.sigma_lateral_m);
+  reader.read("surface/resolution_m", options->build.surface.resolution_m);
+  reader.read("surface/max_support_distance_m", options->build.surface.max_support_distance_m);
+  read(reader, &options->store);
+}
+
+}  // namespace object_modelling::nodes

@@ -1,0 +1,86 @@
+#include "refiner.h"
+
+#include "object_modelling/pipeline/session_jobs.h"
+#include "object_modelling/ros_bridge/pose_conversion.h"
+#include "session_list.h"
+
+namespace object_modelling::nodes
+{
+namespace
+{
+object_modelling::KeyframeResidual toMessage(const refinement::KeyframeResidual& residual)
+{
+  object_modelling::KeyframeResidual message;
+  message.keyframe_id = residual.keyframe_id;
+  message.observation_count = residual.observation_count;
+  message.reprojection_rmse_before_px = residual.reprojection_rmse_before_px;
+  message.reprojection_rmse_after_px = residual.reprojection_rmse_after_px;
+  message.depth_rmse_before_m = residual.depth_rmse_before_m;
+  message.depth_rmse_after_m = residual.depth_rmse_after_m;
+  return message;
+}
+
+object_modelling::KeyframeLink toMessage(const refinement::KeyframeLink& link)
+{
+  object_modelling::KeyframeLink message;
+  message.keyframe_a = link.keyframe_a;
+  message.keyframe_b = link.keyframe_b;
+  message.a_from_b = ros_bridge::toPoseMessage(link.T_a_b);
+  message.inlier_count = link.inlier_count;
+  message.translation_error_before_m = link.translation_error_before_m;
+  message.translation_error_after_m = link.translation_error_after_m;
+  message.rotation_error_before_rad = link.rotation_error_before_rad;
+  message.rotation_error_after_rad = link.rotation_error_after_rad;
+  return message;
+}
+
+object_modelling::SessionRefinement toMessage(const std::string& session_id,
+                                              const refinement::BundleAdjustmentResult& result)
+{
+  object_modelling::SessionRefinement message;
+  message.session_id = session_id;
+  message.status = ros_bridge::toMessage(result.status);
+  message.iterations = result.iterations;
+  message.initial_cost = result.initial_cost;
+  message.final_cost = result.final_cost;
+  for (const refinement::KeyframeResidual& residual : result.residuals)
+    message.residuals.push_back(toMessage(residual));
+  for (const refinement::KeyframeLink& link : result.links)
+    message.links.push_back(toMessage(link));
+  message.left_out.assign(result.left_out.begin(), result.left_out.end());
+  return message;
+}
+}  // namespace
+
+Refiner::Refiner(ros::NodeHandle& node, ros::NodeHandle& private_node, const RefinerOptions& options)
+  : options_(options)
+  , store_(node, options.store)
+  , server_(
+        private_node, "refine",
+        [](const object_modelling::RefineGoal& goal) { return "refine " + joined(goal.session_ids); },
+        [this](const object_modelling::RefineGoal& goal, base::JobControl& control) { return refine(goal, control); })
+{
+}
+
+object_modelling::RefineResult Refiner::refine(const object_modelling::RefineGoal& goal, base::JobControl& control)
+{
+  requireSessions(goal.session_ids);
+  object_modelling::RefineResult result;
+  for (const std::string& session_id : goal.session_ids)
+  {
+    refinement::BundleAdjustmentResult refined;
+    const base::Status thrown = ros_bridge::guarded(
+        [&] { refined = pipeline::refineSession(store_, session_id, options_.bundle_adjustment, control); });
+    if (!thrown.ok())
+      refined.status = thrown;
+    result.sessions.push_back(toMessage(session_id, refined));
+    if (!refined.status.ok())
+    {
+      result.status = ros_bridge::toMessage(refined.status);
+      break;
+    }
+  }
+  return result;
+}
+
+}  // namespace object_modelling::nodes

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <object_modelling/AlignAction.h>
+
+#include "../common/job_server.h"
+#include "session_aligner_options.h"
+
+namespace object_modelling::nodes
+{
+/// Node session_aligner: action ~align.
+class SessionAligner
+{
+public:
+  SessionAligner(ros::NodeHandle& node, ros::NodeHandle& private_node, const SessionAlignerOptions& options);
+
+private:
+  object_modelling::AlignResult align(const object_modelling::AlignGoal& goal, base::JobControl& control);
+
+  ros_bridge::RemoteSessionStore store_;
+  JobServer<object_modelling::AlignAction> server_;
+};
+
+}  // namespace object_modelling::nodes
