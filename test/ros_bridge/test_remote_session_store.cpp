@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+#include <ros/ros.h>
+
+#include "object_modelling/ros_bridge/remote_session_store.h"
+#include "support/temp_dir.h"
+
+namespace object_modelling::ros_bridge
+{
+namespace
+{
+rgbd::Keyframe keyframeOf(int id)
+{
+  rgbd::Keyframe keyframe;
+  keyframe.id = id;
+  keyframe.frame.stamp_s = 100 + id;
+  keyframe.frame.camera.width = 32;
+  keyframe.frame.camera.height = 24;
+  keyframe.frame.camera.fx = keyframe.frame.camera.fy = 30;
+  keyframe.frame.camera.cx = 15.5;
+  keyframe.frame.camera.cy = 11.5;
+  keyframe.frame.color_bgr = cv::Mat(24, 32, CV_8UC3, cv::Scalar::all(10 + id));
+  cv::cvtColor(keyframe.frame.color_bgr, keyframe.frame.gray, cv::COLOR_BGR2GRAY);
+  keyframe.frame.depth_m = cv::Mat(24, 32, CV_32FC1, cv::Scalar(0.5));
+  keyframe.T_session_camera.translation().x() = 0.1 * id;
+  keyframe.observations = { { 1, { 2, 3 }, 0.5f } };
+  return keyframe;
+}
+
+class RemoteSessionStoreTest : public ::testing::Test
+{
+protected:
+  RemoteSessionStoreTest() : store_(node_, { "keyframe_store", 10, 20 })
+  {
+    keyframes::Session session;
+    session.id = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    session.camera_frame_id = "cam";
+    id_ = session.id;
+    store_.createSession(session);
+  }
+
+  base::StatusCode codeOf(const std::function<void()>& body)
+  {
+    try
+    {
+      body();
+      return base::StatusCode::OK;
+    }
+    catch (const base::Error& error)
+    {
+      EXPECT_FALSE(std::string(error.what()).empty());
+      return error.code();
+    }
+  }
+
+  ros::NodeHandle node_;
+  RemoteSessionStore store_;
+  std::string id_;
+};
+
+TEST_F(RemoteSessionStoreTest, KeyframesComeBack)
+{
+  EXPECT_TRUE(store_.available());
+  store_.addKeyframe(id_, keyframeOf(0));
+  store_.addKeyframe(id_, keyframeOf(1));
+  EXPECT_EQ((std::vector<int>{ 0, 1 }), store_.keyframeIds(id_));
+  const rgbd::Keyframe keyframe = store_.keyframe(id_, 1);
+  EXPECT_EQ(11, keyframe.frame.color_bgr.at<cv::Vec3b>(5, 5)[1]);
+  EXPECT_NEAR(0.5, keyframe.frame.depthAt_m(5, 5), 1e-4);
+  EXPECT_NEAR(0.1, keyframe.T_session_camera.translation().x(), 1e-12);
+  EXPECT_EQ(1u, keyframe.observations.size());
+  EXPECT_EQ(2, store_.session(id_).keyframe_count);
+}
+
+TEST_F(RemoteSessionStoreTest, Updates)
+{
+  store_.addKeyframe(id_, keyframeOf(0));
+  Eigen::Isometry3d T_session_camera = Eigen::Isometry3d::Identity();
+  T_session_camera.translation().z() = 0.25;
+  store_.updatePoses(id_, { { 0, T_session_camera, geometry::Matrix6d::Identity() } });
+  store_.updateMasks(id_, { { 0, cv::Mat(24, 32, CV_8UC1, cv::Scalar(255)) } });
+  const rgbd::Keyframe keyframe = store_.keyframe(id_, 0);
+  EXPECT_EQ(0.25, keyframe.T_session_camera.translation().z());
+  EXPECT_EQ(24 * 32, cv::countNonZero(keyframe.frame.object_mask));
+
+  keyframes::Session session = store_.session(id_);
+  EXPECT_EQ("cam", session.camera_frame_id);
+  session.object_id = "mug";
+  session.closed = true;
+  session.T_model_session = T_session_camera;
+  session.support_plane_session = geometry::Plane();
+  store_.updateSession(session);
+  session = store_.session(id_);
+  EXPECT_EQ("mug", session.object_id);
+  EXPECT_TRUE(session.closed && session.T_model_session && session.support_plane_session);
+}
+
+TEST_F(RemoteSessionStoreTest, ErrorsKeepTheirCode)
+{
+  keyframes::Session session;
+  session.id = id_;
+  EXPECT_EQ(base::StatusCode::FAILED_PRECONDITION, codeOf([&] { store_.createSession(session); }));
+  session.id = "../x";
+  EXPECT_EQ(base::StatusCode::INVALID_ARGUMENT, codeOf([&] { store_.createSession(session); }));
+  EXPECT_EQ(base::StatusCode::NOT_FOUND, codeOf([&] { store_.session("nobody"); }));
+  EXPECT_EQ(base::StatusCode::NOT_FOUND, codeOf([&] { store_.keyframe(id_, 99); }));
+  EXPECT_EQ(base::StatusCode::NOT_FOUND, codeOf([&] { store_.addKeyframe("nobody", keyframeOf(0)); }));
+  store_.addKeyframe(id_, keyframeOf(0));
+  EXPECT_EQ(base::StatusCode::FAILED_PRECONDITION, codeOf([&] { store_.addKeyframe(id_, keyframeOf(0)); }));
+}
+
+TEST_F(RemoteSessionStoreTest, ExportDeleteImport)
+{
+  const test_support::TempDir folder;
+  const std::string file = folder.path("session.sqlite");
+  store_.addKeyframe(id_, keyframeOf(0));
+  store_.exportSession(id_, file);
+  store_.deleteSession(id_);
+  EXPECT_EQ(base::StatusCode::NOT_FOUND, codeOf([&] { store_.session(id_); }));
+  EXPECT_EQ(id_, store_.importSession(file));
+  EXPECT_EQ(1, store_.session(id_).keyframe_count);
+  const std::vector<keyframes::Session> sessions = store_.listSessions();
+  EXPECT_TRUE(std::any_of(sessions.begin(), sessions.end(), [&](const auto& session) { return session.id == id_; }));
+}
+
+TEST_F(RemoteSessionStoreTest, AStoreThatIsNotThereIsATimeout)
+{
+  RemoteSessionStore nowhere(node_, { "no_such_node", 0.3, 1 });
+  EXPECT_FALSE(nowhere.available());
+  EXPECT_EQ(base::StatusCode::TIMEOUT, codeOf([&] { nowhere.listSessions(); }));
+}
+}  // namespace
+}  // namespace object_modelling::ros_bridge
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test_remote_session_store");
+  const ros::NodeHandle node;
+  return RUN_ALL_TESTS();
+}
