@@ -27,7 +27,8 @@ struct Interval
 Interval extent(std::vector<double>* values, double trim_ratio)
 {
   const auto count = static_cast<std::ptrdiff_t>(values->size());
-  const std::ptrdiff_t trim = std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(trim_ratio * count), (count - 1) / 2);
+  const std::ptrdiff_t trim =
+      std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(trim_ratio * count), (count - 1) / 2);
   if (trim == 0)
   {
     const auto [low, high] = std::minmax_element(values->begin(), values->end());
@@ -93,7 +94,8 @@ Rectangle smallestTrimmedRectangle(const std::vector<cv::Point2f>& points, doubl
   std::vector<double> buffer;
   const double degree = M_PI / 180;
   Rectangle best = rectangleAt(0, sample, trim_ratio, &buffer);
-  const auto search = [&](double from, double to, double step) {
+  const auto search = [&](double from, double to, double step)
+  {
     for (double angle = from; angle <= to; angle += step)
     {
       const Rectangle candidate = rectangleAt(angle, sample, trim_ratio, &buffer);
@@ -163,8 +165,7 @@ OrientedBox boxAlong(const Eigen::Vector3d& up, const std::vector<Eigen::Vector3
     footprint.emplace_back(static_cast<float>(a.dot(p)), static_cast<float>(b.dot(p)));
     heights.push_back(z.dot(p));
   }
-  Rectangle rectangle =
-      trim_ratio > 0 ? smallestTrimmedRectangle(footprint, trim_ratio) : smallestRectangle(footprint);
+  Rectangle rectangle = trim_ratio > 0 ? smallestTrimmedRectangle(footprint, trim_ratio) : smallestRectangle(footprint);
   const Interval height = extent(&heights, trim_ratio);
 
   const double angle = rectangle.angle_rad;

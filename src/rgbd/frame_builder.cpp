@@ -13,7 +13,10 @@ namespace object_modelling::rgbd
 {
 namespace
 {
-std::string text(const cv::Size& size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
+std::string text(const cv::Size& size)
+{
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
 
 /// What makes the frame unusable whatever its pixels; empty if nothing does.
 std::string defect(const RawFrame& raw, const FrameBuilderOptions& options)
@@ -68,7 +71,10 @@ std::size_t clip(float min_m, float max_m, cv::Mat* depth_m)
   return count;
 }
 
-base::Status badInput(const std::string& message) { return { base::StatusCode::BAD_INPUT, message }; }
+base::Status badInput(const std::string& message)
+{
+  return { base::StatusCode::BAD_INPUT, message };
+}
 
 }  // namespace
 
@@ -82,7 +88,9 @@ std::vector<std::string> FrameBuilderOptions::violations() const
   return check.violations();
 }
 
-FrameBuilder::FrameBuilder(const FrameBuilderOptions& options) : options_(base::checked(options)) {}
+FrameBuilder::FrameBuilder(const FrameBuilderOptions& options) : options_(base::checked(options))
+{
+}
 
 void FrameBuilder::updateMaps(const geometry::PinholeCamera& camera)
 {
@@ -100,6 +108,18 @@ void FrameBuilder::updateMaps(const geometry::PinholeCamera& camera)
   mapped_camera_ = camera;
 }
 
+FrameBuilder::Images FrameBuilder::rectify(const RawFrame& raw)
+{
+  updateMaps(raw.camera);
+  // Out of the image is 0, which is "missing" in both depth types and "not the object" in the mask.
+  Images images;
+  cv::remap(raw.color, images.color, color_map_, color_map_fraction_, cv::INTER_LINEAR);
+  cv::remap(raw.depth, images.depth, nearest_map_, cv::noArray(), cv::INTER_NEAREST);
+  if (!raw.object_mask.empty())
+    cv::remap(raw.object_mask, images.object_mask, nearest_map_, cv::noArray(), cv::INTER_NEAREST);
+  return images;
+}
+
 base::Result<Frame> FrameBuilder::build(const RawFrame& raw)
 {
   base::Result<Frame> result;
@@ -109,26 +129,15 @@ base::Result<Frame> FrameBuilder::build(const RawFrame& raw)
     result.status = badInput(reason);
     return result;
   }
-  cv::Mat color = raw.color;
-  cv::Mat depth = raw.depth;
-  cv::Mat mask = raw.object_mask;
-  if (raw.camera.distorted())
-  {
-    updateMaps(raw.camera);
-    // Out of the image is 0, which is "missing" in both depth types and "not the object" in the mask.
-    cv::remap(raw.color, color, color_map_, color_map_fraction_, cv::INTER_LINEAR);
-    cv::remap(raw.depth, depth, nearest_map_, cv::noArray(), cv::INTER_NEAREST);
-    if (!mask.empty())
-      cv::remap(raw.object_mask, mask, nearest_map_, cv::noArray(), cv::INTER_NEAREST);
-  }
+  const Images images = raw.camera.distorted() ? rectify(raw) : Images{ raw.color, raw.depth, raw.object_mask };
 
   Frame& frame = result.value;
   frame.stamp_s = raw.stamp_s;
   frame.camera = raw.camera;
   frame.camera.distortion.clear();
-  frame.depth_m = depthInMetres(depth, raw.depth_unit_m);
-  const std::size_t count = clip(static_cast<float>(options_.min_depth_m), static_cast<float>(options_.max_depth_m),
-                                 &frame.depth_m);
+  frame.depth_m = depthInMetres(images.depth, raw.depth_unit_m);
+  const std::size_t count =
+      clip(static_cast<float>(options_.min_depth_m), static_cast<float>(options_.max_depth_m), &frame.depth_m);
   const double ratio = static_cast<double>(count) / static_cast<double>(frame.depth_m.total());
   if (count == 0 || ratio < options_.min_depth_ratio)
   {
@@ -137,18 +146,18 @@ base::Result<Frame> FrameBuilder::build(const RawFrame& raw)
                              std::to_string(options_.max_depth_m) + " m: is the camera covered or too close?");
     return result;
   }
-  if (color.channels() == 3)
+  if (images.color.channels() == 3)
   {
-    frame.color_bgr = color;
-    cv::cvtColor(color, frame.gray, cv::COLOR_BGR2GRAY);
+    frame.color_bgr = images.color;
+    cv::cvtColor(images.color, frame.gray, cv::COLOR_BGR2GRAY);
   }
   else
   {
-    frame.gray = color;
-    cv::cvtColor(color, frame.color_bgr, cv::COLOR_GRAY2BGR);
+    frame.gray = images.color;
+    cv::cvtColor(images.color, frame.color_bgr, cv::COLOR_GRAY2BGR);
   }
-  if (!mask.empty())
-    cv::compare(mask, 0, frame.object_mask, cv::CMP_GT);
+  if (!images.object_mask.empty())
+    cv::compare(images.object_mask, 0, frame.object_mask, cv::CMP_GT);
   return result;
 }
 

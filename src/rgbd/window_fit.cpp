@@ -23,9 +23,9 @@ inline cv::Vec3f normalOf(const geometry::PinholeCamera& camera, int u, int v, f
 }  // namespace
 
 PaddedDepth::PaddedDepth(const cv::Mat& depth_m, int radius_px)
-  : radius_(radius_px)
-  , depth_(cv::Mat::zeros(depth_m.rows + 2 * radius_px, depth_m.cols + 2 * radius_px + SLACK, CV_32FC1))
-  , inverse_(cv::Mat::zeros(depth_.size(), CV_32FC1))
+    : radius_(radius_px),
+      depth_(cv::Mat::zeros(depth_m.rows + 2 * radius_px, depth_m.cols + 2 * radius_px + SLACK, CV_32FC1)),
+      inverse_(cv::Mat::zeros(depth_.size(), CV_32FC1))
 {
   for (int v = 0; v < depth_m.rows; ++v)
   {
@@ -65,17 +65,17 @@ cv::Mat wholeWindows(const PaddedDepth& padded, float step_ratio)
 }
 
 WholeWindowFit::WholeWindowFit(const PaddedDepth& padded, const geometry::PinholeCamera& camera)
-  : padded_(padded)
-  , camera_(camera)
-  , radius_(padded.radius())
-  , window_(2 * radius_ + 1)
-  , width_(padded.size().width)
-  , next_row_(-radius_)
-  , sum_w_(static_cast<std::size_t>(window_ * width_))
-  , sum_u_w_(sum_w_.size())
-  , total_w_(static_cast<std::size_t>(width_))
-  , total_u_w_(total_w_.size())
-  , total_v_w_(total_w_.size())
+    : padded_(padded),
+      camera_(camera),
+      radius_(padded.radius()),
+      window_(2 * radius_ + 1),
+      width_(padded.size().width),
+      next_row_(-radius_),
+      sum_w_(static_cast<std::size_t>(window_ * width_)),
+      sum_u_w_(sum_w_.size()),
+      total_w_(static_cast<std::size_t>(width_)),
+      total_u_w_(total_w_.size()),
+      total_v_w_(total_w_.size())
 {
 }
 
@@ -130,10 +130,10 @@ void WholeWindowFit::row(int v, const std::uint8_t* marked, cv::Vec3f* normals)
 
 GatedWindowFit::GatedWindowFit(const PaddedDepth& padded, const geometry::PinholeCamera& camera,
                                const NormalOptions& options)
-  : padded_(padded)
-  , camera_(camera)
-  , step_ratio_(static_cast<float>(options.max_depth_step_ratio))
-  , min_count_(static_cast<float>(options.min_neighbours + 1))
+    : padded_(padded),
+      camera_(camera),
+      step_ratio_(static_cast<float>(options.max_depth_step_ratio)),
+      min_count_(static_cast<float>(options.min_neighbours + 1))
 {
 }
 

@@ -24,8 +24,9 @@ T required(const YAML::Node& root, const std::string& key, const std::string& pa
   }
   catch (const YAML::Exception&)
   {
-    throw badInput(path, key + " is not what it should be (width and height: integers; fx, fy, cx, cy, depth_scale: "
-                               "numbers; distortion: a list of numbers; frame_id: text)");
+    throw badInput(path, key +
+                             " is not what it should be (width and height: integers; fx, fy, cx, cy, depth_scale: "
+                             "numbers; distortion: a list of numbers; frame_id: text)");
   }
 }
 

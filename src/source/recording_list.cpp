@@ -47,13 +47,17 @@ std::vector<RecordedFrame> readAssociations(const std::string& folder, const std
   for (const TextRow& row : readTextTable(path))
   {
     row.requireWords(4, "stamp colour_path stamp depth_path");
-    frames.push_back({ row.number(0), row.number(2), pathInside(folder, row.words[1], row.where),
-                       pathInside(folder, row.words[3], row.where), {} });
+    frames.push_back({ row.number(0),
+                       row.number(2),
+                       pathInside(folder, row.words[1], row.where),
+                       pathInside(folder, row.words[3], row.where),
+                       {} });
   }
   return frames;
 }
 
-/// The closest pair first, then the next of what is left (as the TUM benchmark's associate.py): each image is used once.
+/// The closest pair first, then the next of what is left (as the TUM benchmark's associate.py): each image is used
+/// once.
 std::vector<RecordedFrame> associate(const std::vector<ListedImage>& colors, const std::vector<ListedImage>& depths,
                                      double max_difference_s)
 {
@@ -80,8 +84,11 @@ std::vector<RecordedFrame> associate(const std::vector<ListedImage>& colors, con
     if (color_used[pair.color] || depth_used[pair.depth])
       continue;
     color_used[pair.color] = depth_used[pair.depth] = true;
-    frames.push_back({ colors[pair.color].stamp_s, depths[pair.depth].stamp_s, colors[pair.color].path,
-                       depths[pair.depth].path, {} });
+    frames.push_back({ colors[pair.color].stamp_s,
+                       depths[pair.depth].stamp_s,
+                       colors[pair.color].path,
+                       depths[pair.depth].path,
+                       {} });
   }
   return frames;
 }
@@ -96,8 +103,8 @@ std::vector<RecordedFrame> readRecordingList(const std::string& folder, double m
           ? readAssociations(folder, associations)
           : associate(readList(folder, "rgb.txt"), readList(folder, "depth.txt"), max_stamp_difference_s);
   if (frames.empty())
-    throw badInput(folder, "lists no pair of colour and depth image within " +
-                               std::to_string(max_stamp_difference_s) + " s of each other");
+    throw badInput(folder, "lists no pair of colour and depth image within " + std::to_string(max_stamp_difference_s) +
+                               " s of each other");
   std::stable_sort(frames.begin(), frames.end(),
                    [](const RecordedFrame& a, const RecordedFrame& b) { return a.stamp_s < b.stamp_s; });
   const auto twice =

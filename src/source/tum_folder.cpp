@@ -20,13 +20,16 @@ namespace
 {
 namespace fs = std::filesystem;
 
-bool isJpeg(const std::string& bytes) { return bytes.size() > 2 && bytes.compare(0, 2, "\xff\xd8") == 0; }
+bool isJpeg(const std::string& bytes)
+{
+  return bytes.size() > 2 && bytes.compare(0, 2, "\xff\xd8") == 0;
+}
 
 /// The decoder fills up a JPEG that has been cut off with gray and calls it good; its end marker tells.
 bool cutOffJpeg(const std::string& bytes)
 {
-  return isJpeg(bytes) && bytes.find("\xff\xd9", bytes.size() - std::min<std::size_t>(bytes.size(), 64)) ==
-                              std::string::npos;
+  return isJpeg(bytes) &&
+         bytes.find("\xff\xd9", bytes.size() - std::min<std::size_t>(bytes.size(), 64)) == std::string::npos;
 }
 
 cv::Mat readImage(const std::string& path, int flags)
@@ -48,10 +51,10 @@ class TumFolder : public FrameSource
 {
 public:
   TumFolder(std::string folder, const TumFolderOptions& options)
-    : folder_(std::move(folder))
-    , camera_(readCameraFile((fs::path(folder_) / "camera.yaml").string()))
-    , frames_(readRecordingList(folder_, options.max_stamp_difference_s))
-    , has_instances_(fs::exists(fs::path(folder_) / "objects.yaml"))
+      : folder_(std::move(folder)),
+        camera_(readCameraFile((fs::path(folder_) / "camera.yaml").string())),
+        frames_(readRecordingList(folder_, options.max_stamp_difference_s)),
+        has_instances_(fs::exists(fs::path(folder_) / "objects.yaml"))
   {
     if (options.use_masks)
       addMasks(folder_, &frames_);

@@ -63,11 +63,13 @@ TEST(AtomicFile, LargeTextIsWhole)
 TEST(AtomicFile, TemporaryKeepsFolderAndExtension)
 {
   const TempDir dir;
-  writeFileAtomically(dir.path("mesh.ply"), [&](const std::string& temporary) {
-    EXPECT_EQ(fs::path(temporary).extension(), ".ply");
-    EXPECT_EQ(fs::path(temporary).parent_path(), fs::path(dir.path()));
-    std::ofstream(temporary) << "ply";
-  });
+  writeFileAtomically(dir.path("mesh.ply"),
+                      [&](const std::string& temporary)
+                      {
+                        EXPECT_EQ(fs::path(temporary).extension(), ".ply");
+                        EXPECT_EQ(fs::path(temporary).parent_path(), fs::path(dir.path()));
+                        std::ofstream(temporary) << "ply";
+                      });
   EXPECT_EQ(readTextFile(dir.path("mesh.ply")), "ply");
 }
 
@@ -75,7 +77,8 @@ TEST(AtomicFile, FailingWriterLeavesTheOldFile)
 {
   const TempDir dir;
   writeTextFile(dir.path("a.txt"), "old");
-  const auto failing = [](const std::string& temporary) {
+  const auto failing = [](const std::string& temporary)
+  {
     std::ofstream(temporary) << "half";
     throw std::runtime_error("power cut");
   };

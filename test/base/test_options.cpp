@@ -56,10 +56,11 @@ TEST(Options, EveryBrokenBoundIsNamedAtOnce)
   catch (const Error& error)
   {
     EXPECT_EQ(error.code(), StatusCode::INVALID_ARGUMENT);
-    EXPECT_STREQ(error.what(), "invalid options:\n"
-                               "  outer/ratio = 2: must be within [0, 1]\n"
-                               "  outer/width_m = -1: must be greater than 0\n"
-                               "  inner/count = 0: must be at least 1");
+    EXPECT_STREQ(error.what(),
+                 "invalid options:\n"
+                 "  outer/ratio = 2: must be within [0, 1]\n"
+                 "  outer/width_m = -1: must be greater than 0\n"
+                 "  inner/count = 0: must be at least 1");
   }
 }
 

@@ -69,7 +69,8 @@ TEST(PinholeCamera, DistortedOnlyWithACoefficient)
 TEST(PinholeCamera, ViolationsNameTheField)
 {
   EXPECT_TRUE(someCamera().violations().empty());
-  const auto first = [](const PinholeCamera& camera) {
+  const auto first = [](const PinholeCamera& camera)
+  {
     const std::vector<std::string> all = camera.violations();
     return all.empty() ? std::string() : all.front();
   };

@@ -45,7 +45,8 @@ TEST(FitPlane, KnownPlaneFacesTheViewpoint)
 TEST(FitPlane, ExactlyThreePointsFarAway)
 {
   const Eigen::Vector3d offset(100, 200, 300);
-  const std::vector<Eigen::Vector3d> points = { offset + Eigen::Vector3d(0.1, 0, 0), offset + Eigen::Vector3d(0, 0.1, 0),
+  const std::vector<Eigen::Vector3d> points = { offset + Eigen::Vector3d(0.1, 0, 0),
+                                                offset + Eigen::Vector3d(0, 0.1, 0),
                                                 offset + Eigen::Vector3d(0, 0, 0.1) };
   Plane plane;
   ASSERT_TRUE(fitPlane(points, Eigen::Vector3d::Zero(), &plane));

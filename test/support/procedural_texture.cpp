@@ -20,7 +20,8 @@ std::uint32_t hash(std::uint32_t x)
 /// Three values in [-1, 1] for a patch: mostly one gray level, with some hue.
 Eigen::Vector3f patch(int i, int j, std::uint32_t seed)
 {
-  const std::uint32_t bits = hash(static_cast<std::uint32_t>(i) * 0x9e3779b1U ^ hash(static_cast<std::uint32_t>(j) ^ seed));
+  const std::uint32_t bits =
+      hash(static_cast<std::uint32_t>(i) * 0x9e3779b1U ^ hash(static_cast<std::uint32_t>(j) ^ seed));
   const auto level = [&](int shift) { return static_cast<float>((bits >> shift) & 0xff) / 127.5f - 1.0f; };
   return Eigen::Vector3f::Constant(0.7f * level(0)) + 0.3f * Eigen::Vector3f(level(8), level(16), level(24));
 }

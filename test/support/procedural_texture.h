@@ -15,7 +15,10 @@ struct Texture
   std::uint32_t seed = 1;                      ///< another seed, another print
 };
 
-inline Texture plainTexture(const Eigen::Vector3f& color_bgr = { 170, 170, 170 }) { return { color_bgr, 0, 0.02f, 0 }; }
+inline Texture plainTexture(const Eigen::Vector3f& color_bgr = { 170, 170, 170 })
+{
+  return { color_bgr, 0, 0.02f, 0 };
+}
 
 /// Two turned grids of randomly coloured patches: corners at two scales, no repetition. `footprint_m` is what one pixel
 /// covers: edges are as soft as that, so that nothing aliases and the pattern is the same from any distance.

@@ -7,7 +7,10 @@ namespace object_modelling::test_support
 {
 namespace
 {
-bool nearer(float depth, const Hit& hit) { return depth > 0 && (hit.depth_m == 0 || depth < hit.depth_m); }
+bool nearer(float depth, const Hit& hit)
+{
+  return depth > 0 && (hit.depth_m == 0 || depth < hit.depth_m);
+}
 
 /// Smaller root of a t^2 + 2 b t + c = 0, the entry into a quadric; 0 if there is none.
 float entry(float a, float b, float c)
@@ -19,10 +22,10 @@ float entry(float a, float b, float c)
 }  // namespace
 
 SceneView::SceneView(const SyntheticScene& scene, const Eigen::Isometry3d& T_world_camera)
-  : has_table_(scene.has_table)
-  , table_half_size_(static_cast<float>(scene.table_half_size_m))
-  , R_world_camera_(T_world_camera.linear().cast<float>())
-  , t_world_camera_(T_world_camera.translation().cast<float>())
+    : has_table_(scene.has_table),
+      table_half_size_(static_cast<float>(scene.table_half_size_m)),
+      R_world_camera_(T_world_camera.linear().cast<float>()),
+      t_world_camera_(T_world_camera.translation().cast<float>())
 {
   for (const SceneObject& object : scene.objects)
   {
@@ -73,7 +76,11 @@ void SceneView::castBox(const Body& body, const Eigen::Vector3f& ray, Hit* hit)
     return;
   const Eigen::Vector3f p = eye + enter * ray;
   const float side = ray[axis] > 0 ? -1.0f : 1.0f;
-  *hit = { enter, body.instance, 2 * axis + (side > 0 ? 1 : 0), p[(axis + 1) % 3], p[(axis + 2) % 3],
+  *hit = { enter,
+           body.instance,
+           2 * axis + (side > 0 ? 1 : 0),
+           p[(axis + 1) % 3],
+           p[(axis + 2) % 3],
            side * body.R_object_camera.row(axis).transpose() };
 }
 
@@ -87,16 +94,18 @@ void SceneView::castCylinder(const Body& body, const Eigen::Vector3f& ray, Hit* 
   const Eigen::Vector3f p_wall = eye + wall * ray;
   if (nearer(wall, *hit) && std::abs(p_wall.z()) <= half_height)
   {
-    const Eigen::Vector3f normal(p_wall.x() / radius, p_wall.y() / radius, 0);
-    *hit = { wall, body.instance, 0, radius * std::atan2(p_wall.y(), p_wall.x()), p_wall.z(),
-             body.R_object_camera.transpose() * normal };
+    const Eigen::Vector3f normal = Eigen::Vector3f(p_wall.x(), p_wall.y(), 0).normalized();
+    *hit = { wall,       body.instance,
+             0,          radius * std::atan2(p_wall.y(), p_wall.x()),
+             p_wall.z(), body.R_object_camera.transpose() * normal };
   }
   const float side = ray.z() > 0 ? -1.0f : 1.0f;
   const float cap = (side * half_height - eye.z()) / ray.z();
   const Eigen::Vector3f p_cap = eye + cap * ray;
   if (nearer(cap, *hit) && p_cap.head<2>().squaredNorm() <= radius * radius)
-    *hit = { cap, body.instance, side > 0 ? 2 : 1, p_cap.x(), p_cap.y(),
-             side * body.R_object_camera.row(2).transpose() };
+    *hit = {
+      cap, body.instance, side > 0 ? 2 : 1, p_cap.x(), p_cap.y(), side * body.R_object_camera.row(2).transpose()
+    };
 }
 
 void SceneView::castSphere(const Body& body, const Eigen::Vector3f& ray, Hit* hit)
@@ -111,8 +120,12 @@ void SceneView::castSphere(const Body& body, const Eigen::Vector3f& ray, Hit* hi
   int axis = 0;
   p.cwiseAbs().maxCoeff(&axis);
   const float stretch = radius / std::abs(p[axis]);
-  *hit = { depth, body.instance, 2 * axis + (p[axis] > 0 ? 1 : 0), stretch * p[(axis + 1) % 3],
-           stretch * p[(axis + 2) % 3], body.R_object_camera.transpose() * (p / radius) };
+  *hit = { depth,
+           body.instance,
+           2 * axis + (p[axis] > 0 ? 1 : 0),
+           stretch * p[(axis + 1) % 3],
+           stretch * p[(axis + 2) % 3],
+           body.R_object_camera.transpose() * p.normalized() };
 }
 
 Hit SceneView::cast(const Eigen::Vector3f& ray_camera) const

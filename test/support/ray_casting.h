@@ -9,9 +9,9 @@ namespace object_modelling::test_support
 /// First surface that a viewing ray meets. The ray is (x, y, 1) in the camera frame, so its parameter is the depth.
 struct Hit
 {
-  float depth_m = 0;     ///< 0: nothing
-  int instance = 0;      ///< 0 table, i + 1 object i
-  int face = 0;          ///< for the texture
+  float depth_m = 0;       ///< 0: nothing
+  int instance = 0;        ///< 0 table, i + 1 object i
+  int face = 0;            ///< for the texture
   float a_m = 0, b_m = 0;  ///< place on the face
   Eigen::Vector3f n_camera = Eigen::Vector3f::Zero();
 };

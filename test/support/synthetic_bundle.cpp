@@ -36,7 +36,7 @@ class Observer
 {
 public:
   explicit Observer(const SyntheticBundleOptions& options)
-    : options_(options), camera_(vgaCamera()), random_(options.seed * 0x9e3779b97f4a7c15ULL + 3)
+      : options_(options), camera_(vgaCamera()), random_(options.seed * 0x9e3779b97f4a7c15ULL + 3)
   {
   }
   cv::RNG* random() { return &random_; }
@@ -65,8 +65,8 @@ public:
 private:
   Eigen::Vector2d pixel(const Eigen::Vector2d& truth, bool outlier)
   {
-    Eigen::Vector2d seen = truth + Eigen::Vector2d(random_.gaussian(options_.pixel_sigma_px),
-                                                   random_.gaussian(options_.pixel_sigma_px));
+    Eigen::Vector2d seen =
+        truth + Eigen::Vector2d(random_.gaussian(options_.pixel_sigma_px), random_.gaussian(options_.pixel_sigma_px));
     while (outlier && (seen - truth).norm() < 20)
       seen = { random_.uniform(0.0, camera_.width - 1.0), random_.uniform(0.0, camera_.height - 1.0) };
     return seen;
@@ -106,8 +106,7 @@ SyntheticBundle makeSyntheticBundle(const SyntheticBundleOptions& options)
     keyframe.frame.stamp_s = keyframe.id;
     std::vector<bool> outliers;
     observer.observe(p_world, T_world_camera, &keyframe, &outliers);
-    const geometry::Vector6d error =
-        gaussianVector(options.pose_error_m, options.pose_error_rad, observer.random());
+    const geometry::Vector6d error = gaussianVector(options.pose_error_m, options.pose_error_rad, observer.random());
     keyframe.T_session_camera =
         keyframe.id == 0 ? T_session_camera : T_session_camera * geometry::isometryFromVector(error);
     bundle.T_session_cameras.push_back(T_session_camera);

@@ -28,9 +28,9 @@ struct SyntheticBundleOptions
 /// the camera. The session frame is the first camera.
 struct SyntheticBundle
 {
-  std::vector<rgbd::Keyframe> keyframes;               ///< with perturbed poses and noisy observations
-  std::vector<Eigen::Isometry3d> T_session_cameras;    ///< truth
-  std::vector<Eigen::Vector3d> landmarks;              ///< truth, session frame; index is the landmark_id
+  std::vector<rgbd::Keyframe> keyframes;                ///< with perturbed poses and noisy observations
+  std::vector<Eigen::Isometry3d> T_session_cameras;     ///< truth
+  std::vector<Eigen::Vector3d> landmarks;               ///< truth, session frame; index is the landmark_id
   std::vector<std::vector<bool>> observation_outliers;  ///< as keyframes[i].observations[j]
 };
 

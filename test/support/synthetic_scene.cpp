@@ -41,9 +41,9 @@ double SceneObject::signedDistance_m(const Eigen::Vector3d& p_world) const
   if (shape == Shape::SPHERE)
     return p.norm() - 0.5 * size_m.x();
   const Eigen::VectorXd beyond =
-      shape == Shape::BOX ?
-          Eigen::VectorXd(p.cwiseAbs() - 0.5 * size_m) :
-          Eigen::VectorXd(Eigen::Vector2d(p.head<2>().norm() - 0.5 * size_m.x(), std::abs(p.z()) - 0.5 * size_m.z()));
+      shape == Shape::BOX
+          ? Eigen::VectorXd(p.cwiseAbs() - 0.5 * size_m)
+          : Eigen::VectorXd(Eigen::Vector2d(p.head<2>().norm() - 0.5 * size_m.x(), std::abs(p.z()) - 0.5 * size_m.z()));
   return beyond.cwiseMax(0).norm() + std::min(0.0, beyond.maxCoeff());
 }
 
@@ -73,8 +73,8 @@ SceneImage renderScene(const SyntheticScene& scene, const geometry::PinholeCamer
                        const Eigen::Isometry3d& T_world_camera, const SensorNoise& noise, double stamp_s)
 {
   const SceneView view(scene, T_world_camera);
-  const Eigen::Vector3f to_light = T_world_camera.linear().cast<float>().transpose() *
-                                   Eigen::Vector3f(0.4f, -0.5f, 0.8f).normalized();
+  const Eigen::Vector3f to_light =
+      T_world_camera.linear().cast<float>().transpose() * Eigen::Vector3f(0.4f, -0.5f, 0.8f).normalized();
   const cv::Size size(camera.width, camera.height);
   SceneImage image;
   image.depth_m = cv::Mat(size, CV_32FC1, cv::Scalar(MISSING));

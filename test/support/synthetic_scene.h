@@ -51,13 +51,13 @@ SyntheticScene boxOnTable();
 /// What the sensor adds to the truth; by default nothing.
 struct SensorNoise
 {
-  double depth_sigma_scale = 0;      ///< share of the axial sigma of Nguyen 2012 (1: a real Kinect)
-  double depth_quantum_m = 0;        ///< step of the depth readings, e.g. 0.001
-  int missing_edge_px = 0;           ///< no depth within this distance of a depth step
-  double missing_ratio = 0;          ///< share of pixels without depth, anywhere
-  double max_theta_rad = M_PI / 2;   ///< no depth where the surface is seen at a larger angle to its normal
-  double color_sigma = 0;            ///< gray levels, of 255
-  std::uint64_t seed = 1;            ///< give every frame of a sequence its own
+  double depth_sigma_scale = 0;     ///< share of the axial sigma of Nguyen 2012 (1: a real Kinect)
+  double depth_quantum_m = 0;       ///< step of the depth readings, e.g. 0.001
+  int missing_edge_px = 0;          ///< no depth within this distance of a depth step
+  double missing_ratio = 0;         ///< share of pixels without depth, anywhere
+  double max_theta_rad = M_PI / 2;  ///< no depth where the surface is seen at a larger angle to its normal
+  double color_sigma = 0;           ///< gray levels, of 255
+  std::uint64_t seed = 1;           ///< give every frame of a sequence its own
 };
 
 /// What is at each pixel. Exact, whatever the noise.

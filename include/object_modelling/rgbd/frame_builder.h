@@ -43,6 +43,12 @@ public:
   base::Result<Frame> build(const RawFrame& raw);
 
 private:
+  struct Images
+  {
+    cv::Mat color, depth, object_mask;
+  };
+
+  Images rectify(const RawFrame& raw);
   void updateMaps(const geometry::PinholeCamera& camera);
 
   FrameBuilderOptions options_;

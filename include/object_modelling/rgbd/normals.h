@@ -18,8 +18,8 @@ struct NormalOptions
 };
 
 /// Unit normals in the optical frame facing the camera, CV_32FC3, NaN where depth is missing or too few neighbours
-/// belong to the same surface. Least-squares plane per window, fitted to inverse depth: there a plane is a linear function
-/// of the pixel, and the noise of a disparity-measuring sensor has one sigma everywhere.
+/// belong to the same surface. Least-squares plane per window, fitted to inverse depth: there a plane is a linear
+/// function of the pixel, and the noise of a disparity-measuring sensor has one sigma everywhere.
 cv::Mat computeNormals(const Frame& frame, const NormalOptions& options = {});
 
 }  // namespace object_modelling::rgbd

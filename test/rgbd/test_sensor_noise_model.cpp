@@ -1,0 +1,151 @@
+#include "object_modelling/rgbd/sensor_noise_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "object_modelling/base/status.h"
+#include "object_modelling/rgbd/depth_edges.h"
+#include "object_modelling/rgbd/normals.h"
+#include "support/handheld_trajectory.h"
+#include "support/synthetic_scene.h"
+
+namespace object_modelling::rgbd
+{
+namespace
+{
+constexpr double DEG = M_PI / 180;
+
+TEST(AxialSigma, FrontalKnownAnswers)
+{
+  // 1.2 mm + 1.9 mm (z - 0.4)^2, worked out by hand
+  EXPECT_NEAR(axialSigma_m(0.5, 0), 0.001219, 1e-12);
+  EXPECT_NEAR(axialSigma_m(1.0, 0), 0.001884, 1e-12);
+  EXPECT_NEAR(axialSigma_m(2.0, 0), 0.006064, 1e-12);
+  EXPECT_NEAR(axialSigma_m(0.4, 0), 0.0012, 1e-12);
+}
+
+TEST(AxialSigma, IsFlatUpTo60DegAndGrowsBeyond)
+{
+  EXPECT_DOUBLE_EQ(axialSigma_m(1, 60 * DEG), axialSigma_m(1, 0));
+  // 75 deg: 0.1 mm theta^2 / (pi/2 - theta)^2 = 0.1 mm * 25, divided by sqrt(z)
+  EXPECT_NEAR(axialSigma_m(0.5, 75 * DEG), 0.001219 + 0.0025 / std::sqrt(0.5), 1e-9);
+  EXPECT_NEAR(axialSigma_m(1.0, 75 * DEG), 0.001884 + 0.0025, 1e-9);
+  EXPECT_NEAR(axialSigma_m(2.0, 75 * DEG), 0.006064 + 0.0025 / std::sqrt(2.0), 1e-9);
+}
+
+TEST(LateralSigma, KnownAnswers)
+{
+  EXPECT_DOUBLE_EQ(lateralSigma_px(0), 0.8);
+  EXPECT_NEAR(lateralSigma_px(45 * DEG), 0.835, 1e-12);
+  EXPECT_NEAR(lateralSigma_px(60 * DEG), 0.87, 1e-12);
+}
+
+TEST(LateralSigma, DepthComesInOnce)
+{
+  // 0.8 px at f = 500 px: 1.6 mm per metre of depth; proportional, not quadratic
+  EXPECT_NEAR(lateralSigma_m(0.5, 0, 500), 0.0008, 1e-12);
+  EXPECT_NEAR(lateralSigma_m(1.0, 0, 500), 0.0016, 1e-12);
+  EXPECT_NEAR(lateralSigma_m(2.0, 0, 500), 0.0032, 1e-12);
+}
+
+TEST(Sigmas, UnboundedFromARightAngleOn)
+{
+  for (const double theta : { M_PI / 2, 2.0, M_PI })
+  {
+    EXPECT_TRUE(std::isinf(axialSigma_m(1, theta)));
+    EXPECT_TRUE(std::isinf(lateralSigma_px(theta)));
+  }
+}
+
+TEST(ObservationWeight, AngleFactor)
+{
+  const double far = 1;
+  EXPECT_DOUBLE_EQ(observationWeight(0, far), 1);
+  EXPECT_DOUBLE_EQ(observationWeight(59.9 * DEG, far), 1);
+  EXPECT_NEAR(observationWeight(60 * DEG, far), 1, 1e-9);
+  EXPECT_NEAR(observationWeight(75 * DEG, far), 0.5, 1e-9);
+  EXPECT_NEAR(observationWeight(89.999 * DEG, far), 0, 1e-4);
+  EXPECT_EQ(observationWeight(90 * DEG, far), 0);
+  EXPECT_EQ(observationWeight(120 * DEG, far), 0);
+}
+
+TEST(ObservationWeight, EdgeFactor)
+{
+  EXPECT_DOUBLE_EQ(observationWeight(0, 0), 0.5);
+  EXPECT_NEAR(observationWeight(0, 0.002), 1 - 0.5 * std::exp(-1.0), 1e-12);
+  EXPECT_NEAR(observationWeight(0, 0.004), 1 - 0.5 * std::exp(-4.0), 1e-12);
+  EXPECT_NEAR(observationWeight(75 * DEG, 0), 0.25, 1e-9);
+  EXPECT_EQ(observationWeight(0, std::numeric_limits<double>::infinity()), 1);
+}
+
+TEST(ObservationWeight, StaysWithinItsRangeAndNeverFallsAwayFromAnEdge)
+{
+  for (double theta = 0; theta < M_PI; theta += 0.05)
+  {
+    double previous = 0;
+    for (double distance_m = 0; distance_m < 0.03; distance_m += 0.0005)
+    {
+      const double weight = observationWeight(theta, distance_m);
+      EXPECT_GE(weight, previous);
+      EXPECT_LE(weight, 1);
+      previous = weight;
+    }
+  }
+}
+
+TEST(ObservationWeights, ImageAgreesWithTheFormulaAtSeveralDepths)
+{
+  test_support::SyntheticScene scene = test_support::boxOnTable();
+  const geometry::PinholeCamera camera = test_support::vgaCamera();
+  for (const double distance_m : { 0.5, 1.0, 2.0 })
+  {
+    const test_support::SceneImage image =
+        test_support::renderScene(scene, camera, test_support::orbitPose({ 0, 0, 0.1 }, distance_m, 0.5, 0.3));
+    const cv::Mat distance_px = distanceToEdges_px(findDepthEdges(image.frame));
+    const cv::Mat weights = observationWeights(image.frame, image.normals, distance_px);
+    for (int v = 0; v < 480; v += 3)
+      for (int u = 0; u < 640; u += 3)
+      {
+        const cv::Vec3f& n = image.normals.at<cv::Vec3f>(v, u);
+        const float z = image.frame.depthAt_m(u, v);
+        const float weight = weights.at<float>(v, u);
+        if (!(z > 0))
+        {
+          EXPECT_EQ(weight, 0);
+          continue;
+        }
+        const Eigen::Vector3d ray = camera.unproject(u, v, 1).normalized();
+        const double theta = std::acos(-ray.dot(Eigen::Vector3d(n[0], n[1], n[2])));
+        EXPECT_NEAR(weight, observationWeight(theta, distance_px.at<float>(v, u) * z / 525.0), 2e-4);
+      }
+  }
+}
+
+TEST(ObservationWeights, NothingWithoutNormalOrDepth)
+{
+  Frame frame;
+  frame.camera = test_support::vgaCamera();
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  frame.depth_m = (cv::Mat_<float>(1, 3) << 1.0f, nan, 1.0f);
+  cv::Mat normals(1, 3, CV_32FC3, cv::Scalar(0, 0, -1));
+  normals.at<cv::Vec3f>(0, 0) = { nan, nan, nan };
+  normals.at<cv::Vec3f>(0, 2) = { 0, 0, 1 };  // turned away
+  const cv::Mat weights = observationWeights(frame, normals, cv::Mat::ones(1, 3, CV_32FC1) * 100);
+  EXPECT_EQ(cv::countNonZero(weights), 0);
+}
+
+TEST(ObservationWeights, RefusesBadOptions)
+{
+  Frame frame;
+  frame.depth_m = cv::Mat::ones(1, 1, CV_32FC1);
+  ObservationWeightOptions options;
+  options.sigma_lateral_m = 0;
+  options.theta_max_rad = M_PI;
+  EXPECT_EQ(options.violations().size(), 2u);
+  EXPECT_THROW(observationWeights(frame, cv::Mat::zeros(1, 1, CV_32FC3), frame.depth_m, options), base::Error);
+}
+
+}  // namespace
+}  // namespace object_modelling::rgbd
