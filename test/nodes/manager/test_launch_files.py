@@ -1,0 +1,67 @@
+"""Every shipped launch file loads, starts what it says, and passes on its arguments."""
+import os
+import unittest
+
+import roslaunch.config
+import roslaunch.xmlloader
+
+LAUNCH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "launch")
+NODES = {"camera_tracker", "keyframe_store", "segmenter", "refiner", "session_aligner", "model_builder",
+         "modelling_manager"}
+
+
+def load(name, *arguments):
+    config = roslaunch.config.ROSLaunchConfig()
+    loader = roslaunch.xmlloader.XmlLoader(resolve_anon=True)
+    loader.load(os.path.join(LAUNCH, name), config, argv=list(arguments), verbose=False)
+    return config
+
+
+def parameter(config, name):
+    return config.params["/object_modelling/" + name].value
+
+
+class LaunchFilesTest(unittest.TestCase):
+    def test_all_of_them_are_tested(self):
+        self.assertEqual(set(os.listdir(LAUNCH)), {"object_modelling.launch", "demo.launch"})
+
+    def test_nodes(self):
+        config = load("object_modelling.launch")
+        self.assertEqual({node.name for node in config.nodes}, NODES | {"rviz"})
+        for node in config.nodes:
+            self.assertEqual(node.namespace, "/object_modelling/")
+            if node.package == "object_modelling":
+                self.assertTrue(node.respawn, node.name)
+
+    def test_without_rviz(self):
+        self.assertEqual({node.name for node in load("object_modelling.launch", "rviz:=false").nodes}, NODES)
+
+    def test_arguments_arrive(self):
+        config = load("object_modelling.launch", "camera:=kinect", "reference:=object", "store_path:=/s", "database_path:=/d")
+        self.assertEqual(parameter(config, "camera_tracker/reference"), "object")
+        self.assertEqual(parameter(config, "keyframe_store/store_path"), "/s")
+        self.assertEqual(parameter(config, "model_builder/database_path"), "/d")
+        tracker = [node for node in config.nodes if node.name == "camera_tracker"][0]
+        remaps = dict(tracker.remap_args)
+        self.assertEqual(remaps["rgb/image_rect_color"], "/kinect/rgb/image_rect_color")
+        self.assertEqual(remaps["object_mask"], "/kinect/object_mask")
+
+    def test_every_node_gets_its_config(self):
+        config = load("object_modelling.launch")
+        for key in ("camera_tracker/tracker/seed", "keyframe_store/preview/voxel_size_m", "segmenter/scene/min_height_m",
+                    "refiner/bundle_adjustment/seed", "session_aligner/store/node", "model_builder/fusion/min_views",
+                    "modelling_manager/service_wait_s"):
+            parameter(config, key)
+
+    def test_demo(self):
+        config = load("demo.launch", "recording:=/r", "object_id:=mug", "rviz:=false")
+        self.assertEqual({node.name for node in config.nodes}, NODES | {"demo"})
+        demo = [node for node in config.nodes if node.name == "demo"][0]
+        self.assertEqual(demo.args, "/r --object-id mug")
+        self.assertTrue(demo.required)
+        self.assertEqual({node.name for node in load("demo.launch", "recording:=/r", "rviz:=false", "drive:=false").nodes},
+                         NODES)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,265 @@
+// refiner, segmenter, session_aligner and model_builder over real actions, on a synthetic session in a real store.
+#include <filesystem>
+
+#include <actionlib/client/simple_action_client.h>
+#include <gtest/gtest.h>
+#include <object_modelling/AlignAction.h>
+#include <object_modelling/BuildAction.h>
+#include <object_modelling/ListObjects.h>
+#include <object_modelling/Progress.h>
+#include <object_modelling/RefineAction.h>
+#include <object_modelling/SegmentSessionAction.h>
+#include <object_modelling/Status.h>
+#include <ros/ros.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include "object_modelling/ros_bridge/remote_session_store.h"
+#include "support/handheld_trajectory.h"
+#include "support/synthetic_scene.h"
+
+namespace object_modelling::nodes
+{
+namespace
+{
+using object_modelling::Status;
+
+constexpr double PATIENCE_S = 20;
+constexpr double JOB_S = 120;
+const Eigen::Vector3d BOX_SIZE_M(0.08, 0.12, 0.2);
+
+geometry::PinholeCamera smallCamera()
+{
+  return test_support::vgaCamera().scaled(0.5);
+}
+
+/// A session all round the box, without masks.
+void record(ros_bridge::RemoteSessionStore& store, const std::string& session_id, int keyframe_count)
+{
+  keyframes::Session session;
+  session.id = session_id;
+  session.camera_frame_id = "camera_optical";
+  store.createSession(session);
+  if (keyframe_count == 0)
+    return;
+  for (rgbd::Keyframe& keyframe :
+       test_support::renderKeyframes(test_support::boxOnTable(), smallCamera(),
+                                     test_support::orbitPoses(keyframe_count, { 0, 0, 0.1 }, 0.7, 0.6)))
+  {
+    keyframe.frame.object_mask.release();
+    keyframe.frame.stamp_s = 100 + keyframe.id;
+    store.addKeyframe(session_id, keyframe);
+  }
+}
+
+template <typename Action>
+class Job
+{
+public:
+  ACTION_DEFINITION(Action)
+  explicit Job(const std::string& name) : client_(name, true)
+  {
+    EXPECT_TRUE(client_.waitForServer(ros::Duration(PATIENCE_S))) << name;
+  }
+  Result run(const Goal& goal)
+  {
+    EXPECT_TRUE(client_.sendGoalAndWait(goal, ros::Duration(JOB_S)).isDone());
+    const ResultConstPtr result = client_.getResult();
+    EXPECT_TRUE(result);
+    return result ? *result : Result();
+  }
+  void send(const Goal& goal)
+  {
+    client_.sendGoal(goal, {}, {}, [this](const FeedbackConstPtr&) { ++feedback_count; });
+  }
+  Result wait()
+  {
+    EXPECT_TRUE(client_.waitForResult(ros::Duration(JOB_S)));
+    return *client_.getResult();
+  }
+  void cancel() { client_.cancelGoal(); }
+  std::atomic<int> feedback_count{ 0 };
+
+private:
+  actionlib::SimpleActionClient<Action> client_;
+};
+
+object_modelling::BuildGoal buildGoal(const std::string& object_id, const std::string& session_id)
+{
+  object_modelling::BuildGoal goal;
+  goal.object_id = object_id;
+  goal.placements.resize(1);
+  goal.placements[0].session_id = session_id;
+  return goal;
+}
+
+class JobsTest : public ::testing::Test
+{
+protected:
+  JobsTest() : store_(node_, { "keyframe_store", PATIENCE_S, PATIENCE_S }) {}
+
+  object_modelling::SegmentSessionResult segment(const std::string& session_id)
+  {
+    object_modelling::SegmentSessionGoal goal;
+    goal.session_id = session_id;
+    return Job<object_modelling::SegmentSessionAction>("segmenter/segment_session").run(goal);
+  }
+  object_modelling::RefineResult refine(const std::vector<std::string>& session_ids, const std::string& node = "refiner")
+  {
+    object_modelling::RefineGoal goal;
+    goal.session_ids = session_ids;
+    return Job<object_modelling::RefineAction>(node + "/refine").run(goal);
+  }
+  object_modelling::AlignResult align(const std::vector<std::string>& session_ids)
+  {
+    object_modelling::AlignGoal goal;
+    goal.session_ids = session_ids;
+    return Job<object_modelling::AlignAction>("session_aligner/align").run(goal);
+  }
+  object_modelling::BuildResult build(const object_modelling::BuildGoal& goal, const std::string& node = "model_builder")
+  {
+    return Job<object_modelling::BuildAction>(node + "/build").run(goal);
+  }
+  object_modelling::ListObjects::Response list(const std::string& node = "model_builder")
+  {
+    object_modelling::ListObjects service;
+    EXPECT_TRUE(ros::service::waitForService(node + "/list_objects", ros::Duration(PATIENCE_S)));
+    EXPECT_TRUE(ros::service::call(node + "/list_objects", service));
+    return service.response;
+  }
+
+  ros::NodeHandle node_;
+  ros_bridge::RemoteSessionStore store_;
+};
+
+#define EXPECT_STATUS(expected, part, actual)                                                 \
+  EXPECT_EQ((actual).status.code, (expected)) << (actual).status.message;                     \
+  EXPECT_NE((actual).status.message.find(part), std::string::npos) << (actual).status.message
+}  // namespace
+
+TEST_F(JobsTest, SessionsThatAreNotThere)
+{
+  EXPECT_STATUS(Status::INVALID_ARGUMENT, "no session ids", refine({}));
+  EXPECT_STATUS(Status::INVALID_ARGUMENT, "no session ids", align({}));
+  EXPECT_STATUS(Status::NOT_FOUND, "missing", refine({ "missing" }));
+  EXPECT_STATUS(Status::NOT_FOUND, "missing", align({ "missing" }));
+  EXPECT_STATUS(Status::NOT_FOUND, "missing", segment("missing"));
+  EXPECT_STATUS(Status::NOT_FOUND, "missing", build(buildGoal("box", "missing")));
+}
+
+TEST_F(JobsTest, SessionWithoutKeyframes)
+{
+  record(store_, "empty", 0);
+  EXPECT_STATUS(Status::FAILED_PRECONDITION, "'empty' has no keyframes", refine({ "empty" }));
+  EXPECT_STATUS(Status::FAILED_PRECONDITION, "'empty' has no keyframes", segment("empty"));
+  EXPECT_STATUS(Status::FAILED_PRECONDITION, "'empty' has no keyframes", build(buildGoal("box", "empty")));
+}
+
+TEST_F(JobsTest, StoreThatIsDownIsNamed)
+{
+  EXPECT_STATUS(Status::TIMEOUT, "no_such_store", refine({ "any" }, "lonely_refiner"));
+}
+
+TEST_F(JobsTest, BadBuildGoals)
+{
+  record(store_, "unmasked", 2);
+  EXPECT_STATUS(Status::INVALID_ARGUMENT, "a/b", build(buildGoal("a/b", "unmasked")));
+  object_modelling::BuildGoal without_sessions;
+  without_sessions.object_id = "box";
+  EXPECT_STATUS(Status::FAILED_PRECONDITION, "no session", build(without_sessions));
+  EXPECT_STATUS(Status::FAILED_PRECONDITION, "unmasked", build(buildGoal("box", "unmasked")));
+  object_modelling::BuildGoal zero_poses = buildGoal("box", "unmasked");
+  zero_poses.placements.push_back(zero_poses.placements[0]);
+  EXPECT_EQ(build(zero_poses).status.code, Status::INVALID_ARGUMENT);
+  EXPECT_TRUE(list().objects.empty()) << "a refused build leaves nothing";
+}
+
+TEST_F(JobsTest, UnwritableDatabase)
+{
+  record(store_, "unwritable", 1);
+  EXPECT_STATUS(Status::STORAGE, "/proc/object_modelling", build(buildGoal("box", "unwritable"), "unwritable_builder"));
+  EXPECT_EQ(list("unwritable_builder").status.code, Status::OK) << "the node lives on";
+}
+
+TEST_F(JobsTest, FromSessionToObject)
+{
+  record(store_, "round", 14);
+  const object_modelling::SegmentSessionResult segmented = segment("round");
+  ASSERT_EQ(segmented.status.code, Status::OK) << segmented.status.message;
+  EXPECT_EQ(segmented.keyframe_count, 14);
+  EXPECT_EQ(segmented.masked_count, 14);
+  EXPECT_TRUE(segmented.has_support_plane);
+
+  const object_modelling::AlignResult aligned = align({ "round" });
+  ASSERT_EQ(aligned.status.code, Status::OK) << aligned.status.message;
+  ASSERT_EQ(aligned.placements.size(), 1u);
+  EXPECT_EQ(aligned.placements[0].reference_from_session.orientation.w, 1);
+
+  object_modelling::BuildGoal goal = buildGoal("box", "round");
+  goal.name = "A box";
+  goal.placements = aligned.placements;
+  Job<object_modelling::BuildAction> job("model_builder/build");
+  job.send(goal);
+  const object_modelling::BuildResult result = job.wait();
+  ASSERT_EQ(result.status.code, Status::OK) << result.status.message;
+  EXPECT_GT(job.feedback_count, 0);
+  EXPECT_NEAR(result.built.size_m.z, BOX_SIZE_M.z(), 0.01);
+  EXPECT_NEAR(result.built.size_m.x, BOX_SIZE_M.y(), 0.01);
+  EXPECT_NEAR(result.built.size_m.y, BOX_SIZE_M.x(), 0.01);
+  EXPECT_GT(result.built.triangle_count, 1000u);
+  EXPECT_GE(result.built.stages.size(), 3u);
+  for (const std::string& path : { result.built.object_folder, result.built.mesh_path, result.built.preview_path })
+    EXPECT_TRUE(std::filesystem::exists(path)) << path;
+
+  const object_modelling::ListObjects::Response objects = list();
+  ASSERT_EQ(objects.status.code, Status::OK) << objects.status.message;
+  ASSERT_EQ(objects.objects.size(), 1u);
+  EXPECT_EQ(objects.objects[0].object_id, "box");
+  EXPECT_EQ(objects.objects[0].name, "A box");
+  EXPECT_EQ(objects.objects[0].session_ids, std::vector<std::string>{ "round" });
+
+  const auto preview = ros::topic::waitForMessage<sensor_msgs::PointCloud2>("model_builder/model", node_,
+                                                                             ros::Duration(PATIENCE_S));
+  ASSERT_TRUE(preview);
+  EXPECT_EQ(preview->width, result.built.vertex_count);
+  EXPECT_EQ(preview->header.frame_id, "session");
+
+  record(store_, "other", 2);
+  segment("other");
+  EXPECT_STATUS(Status::FAILED_PRECONDITION, "replace", build(buildGoal("box", "other")));
+  EXPECT_EQ(align({ "round", "other" }).status.code, Status::NO_RESULT);
+}
+
+TEST_F(JobsTest, SecondGoalIsRefusedAndCancelLeavesTheStoreAsItWas)
+{
+  record(store_, "long", 20);
+  object_modelling::SegmentSessionGoal goal;
+  goal.session_id = "long";
+  Job<object_modelling::SegmentSessionAction> first("segmenter/segment_session");
+  first.send(goal);
+  while (first.feedback_count == 0)
+    ros::WallDuration(0.01).sleep();
+  EXPECT_STATUS(Status::FAILED_PRECONDITION, "busy with 'segment long'", segment("long"));
+  first.cancel();
+  const object_modelling::SegmentSessionResult result = first.wait();
+  if (result.status.code == Status::OK)
+    return;  // had ended before the cancel came
+  EXPECT_EQ(result.status.code, Status::CANCELLED);
+  for (const int id : store_.keyframeIds("long"))
+    EXPECT_TRUE(store_.keyframe("long", id).frame.object_mask.empty());
+  const auto progress =
+      ros::topic::waitForMessage<object_modelling::Progress>("segmenter/progress", node_, ros::Duration(PATIENCE_S));
+  ASSERT_TRUE(progress);
+  EXPECT_FALSE(progress->active);
+  EXPECT_EQ(progress->status.code, Status::CANCELLED);
+}
+
+}  // namespace object_modelling::nodes
+
+int main(int argc, char** argv)
+{
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test_jobs");
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}
