@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include <Eigen/Dense>
@@ -22,26 +23,56 @@ double depthSigma_m(double z_m)
   return std::sqrt(2.0) * rgbd::axialSigma_m(z_m, 0);
 }
 
-bool isInlier(const Correspondence& correspondence, const Eigen::Vector3d& p_camera,
-              const geometry::PinholeCamera& camera, const PoseEstimationOptions& options, double* squared_error_px)
+/// Squared reprojection error; infinite behind the camera.
+double squaredError_px(const Correspondence& correspondence, const Eigen::Vector3d& p_camera,
+                       const geometry::PinholeCamera& camera)
 {
   if (p_camera.z() < MIN_DEPTH_M)
-    return false;
-  *squared_error_px = (camera.project(p_camera) - correspondence.pixel).squaredNorm();
-  if (*squared_error_px > options.max_reprojection_error_px * options.max_reprojection_error_px)
-    return false;
-  return std::isnan(correspondence.depth_m) ||
-         std::abs(correspondence.depth_m - p_camera.z()) <= options.depth_gate_sigmas * depthSigma_m(p_camera.z());
+    return std::numeric_limits<double>::infinity();
+  return (camera.project(p_camera) - correspondence.pixel).squaredNorm();
 }
 
-int countInliers(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
-                 const Eigen::Isometry3d& T_camera_session, const PoseEstimationOptions& options)
+/// Whether there is a measured depth that fits the predicted one. One that does not (another surface at an edge, colour
+/// and depth exposed at different times) says nothing of the landmark's pixel.
+bool depthCounts(const Correspondence& correspondence, double z_m, const PoseEstimationOptions& options)
 {
-  int count = 0;
-  double error = 0;
+  return std::abs(correspondence.depth_m - z_m) <= options.depth_gate_sigmas * depthSigma_m(z_m);
+}
+
+/// Hypotheses are told apart by both: landmarks whose measured depth contradicts count half.
+double score(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
+             const Eigen::Isometry3d& T_camera_session, const PoseEstimationOptions& options)
+{
+  const double squared_gate = options.max_reprojection_error_px * options.max_reprojection_error_px;
+  double sum = 0;
   for (const Correspondence& correspondence : correspondences)
-    count += isInlier(correspondence, T_camera_session * correspondence.p_session, camera, options, &error);
-  return count;
+  {
+    const Eigen::Vector3d p = T_camera_session * correspondence.p_session;
+    if (squaredError_px(correspondence, p, camera) <= squared_gate)
+      sum += std::isnan(correspondence.depth_m) || depthCounts(correspondence, p.z(), options) ? 1.0 : 0.5;
+  }
+  return sum;
+}
+
+/// Gate that lets three robust standard deviations pass, between once and twice the option: motion blur and a rolling
+/// shutter widen the errors of a whole frame.
+double adaptedGate_px(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
+                      const Eigen::Isometry3d& T_camera_session, const PoseEstimationOptions& options)
+{
+  std::vector<double> errors_px;
+  for (const Correspondence& correspondence : correspondences)
+  {
+    const double squared = squaredError_px(correspondence, T_camera_session * correspondence.p_session, camera);
+    if (squared <= 4 * options.max_reprojection_error_px * options.max_reprojection_error_px)
+      errors_px.push_back(std::sqrt(squared));
+  }
+  if (errors_px.empty())
+    return options.max_reprojection_error_px;
+  const auto middle = errors_px.begin() + static_cast<std::ptrdiff_t>(errors_px.size() / 2);
+  std::nth_element(errors_px.begin(), middle, errors_px.end());
+  // The median of a two-dimensional error is 1.18 standard deviations of one coordinate.
+  const double gate_px = 3 * std::sqrt(2.0) * *middle / 1.18;
+  return std::clamp(gate_px, options.max_reprojection_error_px, 2 * options.max_reprojection_error_px);
 }
 
 double huberWeight(double residual_sigmas)
@@ -73,11 +104,11 @@ NormalEquations linearise(const std::vector<Correspondence>& correspondences, co
                           const Eigen::Isometry3d& T_camera_session, const PoseEstimationOptions& options)
 {
   NormalEquations equations;
-  double error = 0;
+  const double squared_gate = options.max_reprojection_error_px * options.max_reprojection_error_px;
   for (const Correspondence& correspondence : correspondences)
   {
     const Eigen::Vector3d p = T_camera_session * correspondence.p_session;
-    if (!isInlier(correspondence, p, camera, options, &error))
+    if (squaredError_px(correspondence, p, camera) > squared_gate)
       continue;
     const double inverse_z = 1 / p.z();
     Eigen::Matrix<double, 3, 6> dp;
@@ -88,7 +119,7 @@ NormalEquations linearise(const std::vector<Correspondence>& correspondences, co
     const Eigen::Matrix<double, 1, 6> dv = camera.fy * inverse_z * (dp.row(1) - p.y() * inverse_z * dp.row(2));
     equations.add(du, residual.x(), options.pixel_sigma_px);
     equations.add(dv, residual.y(), options.pixel_sigma_px);
-    if (!std::isnan(correspondence.depth_m))
+    if (depthCounts(correspondence, p.z(), options))
       equations.add(dp.row(2), p.z() - correspondence.depth_m, depthSigma_m(p.z()));
   }
   return equations;
@@ -118,10 +149,9 @@ int hypothesesNeeded(double inlier_ratio, const PoseEstimationOptions& options)
   const double needed = std::log(1 - options.confidence_ratio) / std::log(1 - clean);
   return static_cast<int>(std::min<double>(options.max_hypotheses, std::ceil(needed)));
 }
-}  // namespace
-
-PoseEstimate refinePose(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
-                        const Eigen::Isometry3d& T_session_camera_start, const PoseEstimationOptions& options)
+/// Least squares with a fixed gate.
+PoseEstimate solve(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
+                   const Eigen::Isometry3d& T_session_camera_start, const PoseEstimationOptions& options)
 {
   PoseEstimate estimate;
   Eigen::Isometry3d T_camera_session = T_session_camera_start.inverse();
@@ -138,15 +168,16 @@ PoseEstimate refinePose(const std::vector<Correspondence>& correspondences, cons
       break;
   }
   double squared_sum = 0;
+  const double squared_gate = options.max_reprojection_error_px * options.max_reprojection_error_px;
   estimate.inliers.assign(correspondences.size(), 0);
   for (std::size_t i = 0; i < correspondences.size(); ++i)
   {
-    double error = 0;
-    if (!isInlier(correspondences[i], T_camera_session * correspondences[i].p_session, camera, options, &error))
+    const double squared = squaredError_px(correspondences[i], T_camera_session * correspondences[i].p_session, camera);
+    if (squared > squared_gate)
       continue;
     estimate.inliers[i] = 1;
     ++estimate.inlier_count;
-    squared_sum += error;
+    squared_sum += squared;
   }
   if (estimate.inlier_count < 4)
     return estimate;
@@ -157,6 +188,22 @@ PoseEstimate refinePose(const std::vector<Correspondence>& correspondences, cons
   estimate.reprojection_rmse_px = std::sqrt(squared_sum / estimate.inlier_count);
   estimate.covariance = inSessionFrame(equations.A.inverse() * variance, estimate.T_session_camera);
   return estimate;
+}
+
+}  // namespace
+
+PoseEstimate refinePose(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
+                        const Eigen::Isometry3d& T_session_camera_start, const PoseEstimationOptions& options)
+{
+  PoseEstimationOptions gated = options;
+  gated.max_reprojection_error_px = 2 * options.max_reprojection_error_px;
+  gated.max_iterations = 3;
+  const PoseEstimate rough = solve(correspondences, camera, T_session_camera_start, gated);
+  if (!rough.valid)
+    return rough;
+  gated.max_reprojection_error_px = adaptedGate_px(correspondences, camera, rough.T_session_camera.inverse(), options);
+  gated.max_iterations = options.max_iterations;
+  return solve(correspondences, camera, rough.T_session_camera, gated);
 }
 
 PoseEstimate estimatePose(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
@@ -172,11 +219,11 @@ PoseEstimate estimatePose(const std::vector<Correspondence>& correspondences, co
       with_depth.push_back(i);
 
   Eigen::Isometry3d T_best = T_session_camera_prior;
-  int best_count = countInliers(correspondences, camera, T_best.inverse(), options);
+  double best_score = score(correspondences, camera, T_best.inverse(), options);
   if (with_depth.size() >= 3)
   {
     std::mt19937_64 generator(seed);
-    int needed = hypothesesNeeded(static_cast<double>(best_count) / static_cast<double>(count), options);
+    int needed = hypothesesNeeded(best_score / static_cast<double>(count), options);
     for (int drawn = 0; drawn < needed; ++drawn)
     {
       Eigen::Matrix3Xd p_session(3, 3), p_camera(3, 3);
@@ -189,21 +236,15 @@ PoseEstimate estimatePose(const std::vector<Correspondence>& correspondences, co
       Eigen::Isometry3d T_session_camera;
       if (!geometry::rigidTransformFromPoints(p_session, p_camera, &T_session_camera))
         continue;
-      const int inliers = countInliers(correspondences, camera, T_session_camera.inverse(), options);
-      if (inliers <= best_count)
+      const double drawn_score = score(correspondences, camera, T_session_camera.inverse(), options);
+      if (drawn_score <= best_score)
         continue;
-      best_count = inliers;
+      best_score = drawn_score;
       T_best = T_session_camera;
-      needed = hypothesesNeeded(static_cast<double>(inliers) / static_cast<double>(count), options);
+      needed = hypothesesNeeded(best_score / static_cast<double>(count), options);
     }
   }
-  // Three noisy depths place the camera roughly: a wider gate first, so that the least squares sees most of the
-  // inliers.
-  PoseEstimationOptions wide = options;
-  wide.max_reprojection_error_px *= 2;
-  wide.max_iterations = 3;
-  const PoseEstimate rough = refinePose(correspondences, camera, T_best, wide);
-  return refinePose(correspondences, camera, rough.valid ? rough.T_session_camera : T_best, options);
+  return refinePose(correspondences, camera, T_best, options);
 }
 
 }  // namespace object_modelling::tracking

@@ -21,8 +21,8 @@ struct Correspondence
 struct PoseEstimationOptions
 {
   double pixel_sigma_px = 0.5;
-  double max_reprojection_error_px = 2.5;  ///< inlier gate
-  double depth_gate_sigmas = 4.0;          ///< inlier gate on depth where there is one
+  double max_reprojection_error_px = 2.5;  ///< inlier gate; up to twice as wide for a frame whose errors all are large
+  double depth_gate_sigmas = 4.0;          ///< depth that fits worse does not count
   int max_hypotheses = 200;
   double confidence_ratio = 0.99;  ///< chance of having drawn one clean sample, at which RANSAC stops
   int max_iterations = 10;         ///< of the least squares

@@ -16,6 +16,7 @@ constexpr double MIN_REFERENCE_SHARE = 0.4;    // of the reference's landmarks: 
 constexpr double LAST_REFERENCE_SHARE = 0.25;  // ... and below this it is taken even from a blurred frame
 constexpr double MAX_KEYFRAME_BLUR_RATIO = 0.5;
 constexpr double MAX_KEYFRAME_ANGULAR_SPEED_RAD_PER_S = 2.5;
+constexpr double LEAVING_RATIO = 1.5;  // of the keyframe angle: where the next frame must not find itself alone
 constexpr int MIN_FRAMES_BETWEEN_KEYFRAMES = 3;
 constexpr double SHARPNESS_DECAY_RATIO = 0.998;  // per frame, so that a plainer side of the scene becomes the measure
 }  // namespace
@@ -78,6 +79,7 @@ TrackingResult CameraTracker::Implementation::track(const rgbd::Frame& frame)
     result.reason = "recognised a known view again";
   motion_.add(frame.stamp_s, placement.pose.T_session_camera, !lost_);
   lost_ = false;
+  previous_placed_s_ = last_placed_s_;
   last_placed_s_ = frame.stamp_s;
   result.T_session_camera = placement.pose.T_session_camera;
   result.covariance = placement.pose.covariance;
@@ -106,7 +108,7 @@ void CameraTracker::Implementation::start(const rgbd::Frame& frame, const ImageP
   }
   result->status = TrackingStatus::TRACKING;
   motion_.add(frame.stamp_s, result->T_session_camera, false);
-  last_placed_s_ = frame.stamp_s;
+  previous_placed_s_ = last_placed_s_ = frame.stamp_s;
 }
 
 void CameraTracker::Implementation::considerKeyframe(const rgbd::Frame& frame, const ImagePyramid& pyramid,
@@ -115,10 +117,15 @@ void CameraTracker::Implementation::considerKeyframe(const rgbd::Frame& frame, c
   last_inliers_ = placement.inliers;
   const bool running_out =
       placement.reference_share < LAST_REFERENCE_SHARE || result->inlier_count < 3 * options_.min_inliers / 2;
-  const bool wanted =
-      running_out || placement.wide_baseline || placement.reference_share < MIN_REFERENCE_SHARE ||
-      map_.isNewView(result->T_session_camera, options_.keyframe_angle_rad, options_.keyframe_distance_ratio);
-  if (!wanted || (!placement.wide_baseline && frames_since_keyframe_ < MIN_FRAMES_BETWEEN_KEYFRAMES))
+  // Taken while the last keyframe is still well in view: before a large step would leave it, not after.
+  const Eigen::Isometry3d T_session_next = *motion_.predict(2 * frame.stamp_s - previous_placed_s_);
+  const bool new_view =
+      map_.isNewView(result->T_session_camera, options_.keyframe_angle_rad, options_.keyframe_distance_ratio) ||
+      map_.isNewView(T_session_next, LEAVING_RATIO * options_.keyframe_angle_rad,
+                     LEAVING_RATIO * options_.keyframe_distance_ratio);
+  const bool poorly_seen = placement.wide_baseline || (placement.reference_share < MIN_REFERENCE_SHARE &&
+                                                       frames_since_keyframe_ >= MIN_FRAMES_BETWEEN_KEYFRAMES);
+  if (!running_out && !new_view && !poorly_seen)
     return;
   // A view that was found again without flow adds nothing if the map has it already.
   if (placement.wide_baseline && placement.reference_share >= MIN_REFERENCE_SHARE)

@@ -66,6 +66,7 @@ private:
   double sharpest_ = 0;
   ImagePyramid last_pyramid_;  ///< of the last frame that was placed
   double last_placed_s_ = 0;
+  double previous_placed_s_ = 0;
   std::vector<LandmarkMatch> last_inliers_;  ///< landmarks followed by optical flow
 };
 
