@@ -1,5 +1,6 @@
 """Drives one session as a user would: start, play a recording, stop, build; and tells what came of it."""
 import argparse
+import contextlib
 import os
 import subprocess
 import sys
@@ -64,8 +65,11 @@ class Demo:
         started = time.monotonic()
         try:
             self._play()
-        finally:
-            stopped = self._call("stop_session", srv.StopSession)
+        except DemoError:
+            with contextlib.suppress(rospy.ServiceException):
+                rospy.ServiceProxy(self._manager + "stop_session", srv.StopSession)()
+            raise
+        stopped = self._call("stop_session", srv.StopSession)
         times.append(("track", time.monotonic() - started))
         self._say("  %d frames, %d of them tracked, %d keyframes, %.1f s" % (
             stopped.frame_count, stopped.tracked_count, stopped.keyframe_count, times[0][1]))

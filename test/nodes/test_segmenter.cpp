@@ -72,14 +72,12 @@ protected:
   {
     const rgbd::Frame frame = viewOf(scene);
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(PATIENCE_S);
-    ros::Time stamp = ros::Time::now();
     object_modelling::Segment segment;
-    const ros::Time first = stamp;
+    const ros::Time first = ros::Time::now();
     do
     {
-      // A frame is complete for the synchroniser once the next one has come.
-      for (int i = 0; i < 3; ++i, stamp += ros::Duration(1.0 / 30))
-        publisher_.publish(frame, stamp, stamp, frame.camera);
+      const ros::Time stamp = ros::Time::now();
+      publisher_.publish(frame, stamp, stamp, frame.camera);
       ros::WallDuration(0.1).sleep();
       call("segment", segment);
     } while (segment.response.hypotheses.header.stamp < first && ros::WallTime::now() < end);

@@ -14,51 +14,45 @@ constexpr int QUEUE_SIZE = 5;
 }
 
 NewestFrame::NewestFrame(ros::NodeHandle& node, const rgbd::FrameBuilderOptions& options)
-  : builder_(options)
-  , color_subscriber_(node, names::COLOR, QUEUE_SIZE)
-  , depth_subscriber_(node, names::DEPTH, QUEUE_SIZE)
-  , info_subscriber_(node, names::CAMERA_INFO, QUEUE_SIZE)
-  , synchronizer_(Policy(2 * QUEUE_SIZE), color_subscriber_, depth_subscriber_, info_subscriber_)
+  : builder_(options), pairer_(options.max_stamp_difference_s, false)
 {
-  for (const char* name : { names::COLOR, names::DEPTH, names::CAMERA_INFO })
-    heard_[node.resolveName(name)] = false;
-  color_subscriber_.registerCallback(
-      [this](const sensor_msgs::ImageConstPtr&) { heard_[color_subscriber_.getSubscriber().getTopic()] = true; });
-  depth_subscriber_.registerCallback(
-      [this](const sensor_msgs::ImageConstPtr&) { heard_[depth_subscriber_.getSubscriber().getTopic()] = true; });
-  info_subscriber_.registerCallback(
-      [this](const sensor_msgs::CameraInfoConstPtr&) { heard_[info_subscriber_.getSubscriber().getTopic()] = true; });
-  synchronizer_.registerCallback(&NewestFrame::take, this);
+  subscribe<sensor_msgs::Image>(node, names::COLOR, &FramePairer::addColor);
+  subscribe<sensor_msgs::Image>(node, names::DEPTH, &FramePairer::addDepth);
+  subscribe<sensor_msgs::CameraInfo>(node, names::CAMERA_INFO, &FramePairer::addInfo);
 }
 
-void NewestFrame::take(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
-                       const sensor_msgs::CameraInfoConstPtr& info)
+template <typename Message>
+void NewestFrame::subscribe(ros::NodeHandle& node, const char* topic,
+                            std::optional<FrameMessages> (FramePairer::*add)(const boost::shared_ptr<const Message>&))
 {
-  color_ = color;
-  depth_ = depth;
-  info_ = info;
+  const std::string resolved = node.resolveName(topic);
+  heard_[resolved] = false;
+  const boost::function<void(const boost::shared_ptr<const Message>&)> take =
+      [this, resolved, add](const boost::shared_ptr<const Message>& message) {
+        heard_[resolved] = true;
+        if (std::optional<FrameMessages> frame = (pairer_.*add)(message))
+          newest_ = std::move(frame);
+      };
+  subscribers_.push_back(node.subscribe<Message>(topic, QUEUE_SIZE, take));
 }
 
 ros::Time NewestFrame::stamp() const
 {
-  return color_ ? color_->header.stamp : ros::Time();
+  return newest_ ? newest_->color->header.stamp : ros::Time();
 }
 
 base::Result<StampedFrame> NewestFrame::get()
 {
   base::Result<StampedFrame> result;
-  if (!color_)
+  if (!newest_)
   {
-    const std::string silent = silentTopics();
-    result.status = { base::StatusCode::FAILED_PRECONDITION,
-                      silent.empty() ? "no frame yet: colour, depth and camera info come, but with stamps too far apart"
-                                     : "no frame yet: no message on " + silent + "; is the camera running and remapped?" };
+    result.status = { base::StatusCode::FAILED_PRECONDITION, "no frame yet: " + reasonForNone() };
     return result;
   }
-  result.value.header = color_->header;
+  result.value.header = newest_->color->header;
   result.status = ros_bridge::guarded([&] {
-    base::Result<rgbd::Frame> frame = builder_.build(
-        ros_bridge::rawFrameFromMessages(*color_, *depth_, *info_, ros_bridge::ImageKind::RECTIFIED));
+    base::Result<rgbd::Frame> frame = builder_.build(ros_bridge::rawFrameFromMessages(
+        *newest_->color, *newest_->depth, *newest_->info, ros_bridge::ImageKind::RECTIFIED));
     if (!frame.ok())
       throw base::Error(frame.status.code, frame.status.message);
     result.value.frame = std::move(frame.value);
@@ -66,13 +60,16 @@ base::Result<StampedFrame> NewestFrame::get()
   return result;
 }
 
-std::string NewestFrame::silentTopics() const
+std::string NewestFrame::reasonForNone() const
 {
   std::string silent;
   for (const auto& [topic, heard] : heard_)
     if (!heard)
       silent += (silent.empty() ? "" : ", ") + topic;
-  return silent;
+  if (!silent.empty())
+    return "no message on " + silent + "; is the camera running and remapped?";
+  return "colour and depth come, but with stamps too far apart (nearest: " +
+         std::to_string(pairer_.unpairedDifference_s()) + " s; allowed: frame/max_stamp_difference_s)";
 }
 
 }  // namespace object_modelling::nodes

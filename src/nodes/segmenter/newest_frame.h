@@ -1,15 +1,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
-#include <message_filters/subscriber.h>
-#include <message_filters/sync_policies/approximate_time.h>
-#include <message_filters/synchronizer.h>
 #include <ros/node_handle.h>
-#include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
 
+#include "../camera_tracker/frame_pairer.h"
 #include "object_modelling/rgbd/frame_builder.h"
 
 namespace object_modelling::nodes
@@ -32,20 +30,16 @@ public:
   ros::Time stamp() const;
 
 private:
-  using Policy = message_filters::sync_policies::ApproximateTime<sensor_msgs::Image, sensor_msgs::Image,
-                                                                 sensor_msgs::CameraInfo>;
-
-  void take(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
-            const sensor_msgs::CameraInfoConstPtr& info);
-  std::string silentTopics() const;
+  template <typename Message>
+  void subscribe(ros::NodeHandle& node, const char* topic,
+                 std::optional<FrameMessages> (FramePairer::*add)(const boost::shared_ptr<const Message>&));
+  std::string reasonForNone() const;
 
   rgbd::FrameBuilder builder_;
-  message_filters::Subscriber<sensor_msgs::Image> color_subscriber_, depth_subscriber_;
-  message_filters::Subscriber<sensor_msgs::CameraInfo> info_subscriber_;
-  message_filters::Synchronizer<Policy> synchronizer_;
+  FramePairer pairer_;
   std::map<std::string, bool> heard_;  ///< by topic: whether any message has come
-  sensor_msgs::ImageConstPtr color_, depth_;
-  sensor_msgs::CameraInfoConstPtr info_;
+  std::optional<FrameMessages> newest_;
+  std::vector<ros::Subscriber> subscribers_;
 };
 
 }  // namespace object_modelling::nodes
