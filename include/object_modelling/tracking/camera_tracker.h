@@ -27,7 +27,7 @@ enum class Reference : std::uint8_t
 struct CameraTrackerOptions
 {
   Reference reference = Reference::SCENE;
-  int max_features = 600;  ///< tracked per frame
+  int max_features = 300;  ///< tracked per frame
   int min_inliers = 20;    ///< fewer geometric inliers: the frame is lost
   double min_inlier_ratio = 0.3;
   double max_reprojection_error_px = 2.5;  ///< inlier gate at the frame's resolution
