@@ -55,6 +55,7 @@ public:
     sql << "PRAGMA busy_timeout = " << BUSY_TIMEOUT_MS;
     sql << "PRAGMA foreign_keys = ON";
     sql << "PRAGMA synchronous = FULL";  // a commit survives a power cut
+    sql << "PRAGMA page_size = 16384";   // images, not small rows; only works before any table
     sql << "PRAGMA auto_vacuum = FULL";  // a deleted session gives its disk space back; only works before any table
     sql << "PRAGMA journal_size_limit = 67108864";
     setJournalMode(sql);

@@ -80,12 +80,12 @@ PostgresqlServer* PostgresqlServer::shared()
 
 PostgresqlServer::PostgresqlServer(const std::string& programs) : programs_(programs)
 {
-  const pid_t child = launch({ programs_ + "/initdb", "-D", folder_.file("data"), "-U", "modelling", "-A", "trust",
+  const pid_t child = launch({ programs_ + "/initdb", "-D", folder_.path("data"), "-U", "modelling", "-A", "trust",
                                "-E", "UTF8", "--locale=C", "--no-sync" },
                              folder_.path());
   int result = 0;
   if (child < 0 || waitpid(child, &result, 0) != child || result != 0)
-    throw std::runtime_error("initdb failed; see " + folder_.file("log"));
+    throw std::runtime_error("initdb failed; see " + folder_.path("log"));
   start();
 }
 
@@ -96,7 +96,7 @@ PostgresqlServer::~PostgresqlServer()
 
 void PostgresqlServer::start()
 {
-  server_ = launch({ programs_ + "/postgres", "-D", folder_.file("data"), "-k", folder_.path(), "-c",
+  server_ = launch({ programs_ + "/postgres", "-D", folder_.path("data"), "-k", folder_.path(), "-c",
                      "listen_addresses=", "-c", "fsync=off" },
                    folder_.path());
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);

@@ -1,20 +1,15 @@
 #include "store_fixtures.h"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
 
 namespace object_modelling::keyframes
 {
 namespace
 {
-namespace fs = std::filesystem;
-
 bool identical(const cv::Mat& a, const cv::Mat& b)
 {
   if (a.size() != b.size() || (!a.empty() && a.type() != b.type()))
@@ -22,21 +17,6 @@ bool identical(const cv::Mat& a, const cv::Mat& b)
   return a.empty() || cv::norm(a, b, cv::NORM_INF) == 0;
 }
 }  // namespace
-
-TemporaryFolder::TemporaryFolder()
-{
-  std::string name = (fs::temp_directory_path() / "keyframe_store-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr)
-    throw std::runtime_error("no temporary folder " + name);
-  path_ = name;
-  fs::permissions(path_, fs::perms::all);
-}
-
-TemporaryFolder::~TemporaryFolder()
-{
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
 
 rgbd::Keyframe makeKeyframe(int id, int width, int height)
 {

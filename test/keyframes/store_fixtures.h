@@ -1,26 +1,20 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
 #include "object_modelling/base/status.h"
 #include "object_modelling/keyframes/session_store.h"
+#include "support/temp_dir.h"
 
 namespace object_modelling::keyframes
 {
-/// A folder under the system's temporary folder that goes with the object. Anybody may write to it.
-class TemporaryFolder
+/// A temporary folder in which other users may write too: a server, or one who may not write elsewhere.
+class TemporaryFolder : public test_support::TempDir
 {
 public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-  const std::string& path() const { return path_; }
-
-private:
-  std::string path_;
+  TemporaryFolder() { std::filesystem::permissions(path(), std::filesystem::perms::all); }
 };
 
 /// A keyframe with a textured image, slanted depth with holes, a mask and observations; another for every id.

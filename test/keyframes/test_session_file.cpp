@@ -14,7 +14,7 @@ using base::StatusCode;
 class SessionFile : public ::testing::Test
 {
 protected:
-  SessionFile() : store_(openSqlStore(folder_.file("store.db")))
+  SessionFile() : store_(openSqlStore(folder_.path("store.db")))
   {
     Session session = makeSession("a");
     session.T_model_session = makeKeyframe(4).T_session_camera;
@@ -54,10 +54,10 @@ protected:
 
 TEST_F(SessionFile, GoesToAnotherStore)
 {
-  const std::string file = target_.file("with space.session");
+  const std::string file = target_.path("with space.session");
   store_->exportSession("a", file);
   EXPECT_EQ(filesIn(target_.path()), 1u);  // one file: no journal, no temporary
-  const std::unique_ptr<SessionStore> other = openSqlStore(folder_.file("other.db"));
+  const std::unique_ptr<SessionStore> other = openSqlStore(folder_.path("other.db"));
   EXPECT_EQ(other->importSession(file), "a");
   EXPECT_EQ(other->listSessions().size(), 1u);
   expectArrived(*other);
@@ -69,22 +69,22 @@ TEST_F(SessionFile, GoesToPostgresqlAndBack)
   PostgresqlServer* server = PostgresqlServer::shared();
   if (server == nullptr)
     GTEST_SKIP() << "PostgreSQL's server is not installed (package postgresql)";
-  store_->exportSession("a", target_.file("out.session"));
+  store_->exportSession("a", target_.path("out.session"));
   const std::unique_ptr<SessionStore> fleet = openSqlStore(server->createDatabase());
-  fleet->importSession(target_.file("out.session"));
+  fleet->importSession(target_.path("out.session"));
   expectArrived(*fleet);
-  fleet->exportSession("a", target_.file("back.session"));
-  const std::unique_ptr<SessionStore> other = openSqlStore(folder_.file("other.db"));
-  other->importSession(target_.file("back.session"));
+  fleet->exportSession("a", target_.path("back.session"));
+  const std::unique_ptr<SessionStore> other = openSqlStore(folder_.path("other.db"));
+  other->importSession(target_.path("back.session"));
   expectArrived(*other);
 }
 
 TEST_F(SessionFile, ReplacesNothing)
 {
-  const std::string file = target_.file("a.session");
+  const std::string file = target_.path("a.session");
   store_->exportSession("a", file);
   EXPECT_EQ(statusOf([&] { store_->exportSession("a", file); }).code, StatusCode::FAILED_PRECONDITION);
-  EXPECT_EQ(statusOf([&] { store_->exportSession("a", folder_.file("store.db")); }).code,
+  EXPECT_EQ(statusOf([&] { store_->exportSession("a", folder_.path("store.db")); }).code,
             StatusCode::FAILED_PRECONDITION);
   const base::Status status = statusOf([&] { store_->importSession(file); });
   EXPECT_EQ(status.code, StatusCode::FAILED_PRECONDITION);
@@ -94,43 +94,43 @@ TEST_F(SessionFile, ReplacesNothing)
 
 TEST_F(SessionFile, LeavesNothingBehindWhenItFails)
 {
-  EXPECT_EQ(statusOf([&] { store_->exportSession("none", target_.file("x")); }).code, StatusCode::NOT_FOUND);
+  EXPECT_EQ(statusOf([&] { store_->exportSession("none", target_.path("x")); }).code, StatusCode::NOT_FOUND);
   EXPECT_EQ(filesIn(target_.path()), 0u);
-  EXPECT_EQ(statusOf([&] { store_->exportSession("a", target_.file("no/folder/x")); }).code, StatusCode::STORAGE);
+  EXPECT_EQ(statusOf([&] { store_->exportSession("a", target_.path("no/folder/x")); }).code, StatusCode::STORAGE);
   EXPECT_EQ(statusOf([&] { store_->exportSession("a", ""); }).code, StatusCode::INVALID_ARGUMENT);
   EXPECT_EQ(statusOf([&] { store_->exportSession("a", target_.path() + "/"); }).code, StatusCode::INVALID_ARGUMENT);
 }
 
 TEST_F(SessionFile, ImportsFromAWriteProtectedFile)
 {
-  const std::string file = target_.file("a.session");
+  const std::string file = target_.path("a.session");
   store_->exportSession("a", file);
   fs::permissions(file, fs::perms::owner_read);
-  const std::unique_ptr<SessionStore> other = openSqlStore(folder_.file("other.db"));
+  const std::unique_ptr<SessionStore> other = openSqlStore(folder_.path("other.db"));
   EXPECT_EQ(other->importSession(file), "a");
 }
 
 TEST_F(SessionFile, RefusesOtherFiles)
 {
-  EXPECT_EQ(statusOf([&] { store_->importSession(target_.file("none")); }).code, StatusCode::NOT_FOUND);
+  EXPECT_EQ(statusOf([&] { store_->importSession(target_.path("none")); }).code, StatusCode::NOT_FOUND);
   EXPECT_EQ(statusOf([&] { store_->importSession(target_.path()); }).code, StatusCode::NOT_FOUND);
-  std::ofstream(target_.file("empty")).flush();
-  EXPECT_EQ(statusOf([&] { store_->importSession(target_.file("empty")); }).code, StatusCode::BAD_INPUT);
-  std::ofstream(target_.file("text")) << std::string(5000, 'x');
-  EXPECT_EQ(statusOf([&] { store_->importSession(target_.file("text")); }).code, StatusCode::BAD_INPUT);
+  std::ofstream(target_.path("empty")).flush();
+  EXPECT_EQ(statusOf([&] { store_->importSession(target_.path("empty")); }).code, StatusCode::BAD_INPUT);
+  std::ofstream(target_.path("text")) << std::string(5000, 'x');
+  EXPECT_EQ(statusOf([&] { store_->importSession(target_.path("text")); }).code, StatusCode::BAD_INPUT);
   // A whole store is not one session.
   store_.reset();
-  const std::unique_ptr<SessionStore> other = openSqlStore(folder_.file("other.db"));
-  EXPECT_EQ(statusOf([&] { other->importSession(folder_.file("store.db")); }).code, StatusCode::BAD_INPUT);
+  const std::unique_ptr<SessionStore> other = openSqlStore(folder_.path("other.db"));
+  EXPECT_EQ(statusOf([&] { other->importSession(folder_.path("store.db")); }).code, StatusCode::BAD_INPUT);
   EXPECT_TRUE(other->listSessions().empty());
 }
 
 TEST_F(SessionFile, RefusesADamagedFileWhole)
 {
-  const std::string file = target_.file("a.session");
+  const std::string file = target_.path("a.session");
   store_->exportSession("a", file);
   fs::resize_file(file, fs::file_size(file) / 2);
-  const std::unique_ptr<SessionStore> other = openSqlStore(folder_.file("other.db"));
+  const std::unique_ptr<SessionStore> other = openSqlStore(folder_.path("other.db"));
   EXPECT_EQ(statusOf([&] { other->importSession(file); }).code, StatusCode::BAD_INPUT);
   EXPECT_TRUE(other->listSessions().empty());
 }

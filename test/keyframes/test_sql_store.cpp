@@ -22,7 +22,7 @@ protected:
   void SetUp() override
   {
     if (GetParam() == "sqlite")
-      connection_ = folder_.file("store.db");
+      connection_ = folder_.path("store.db");
     else if (PostgresqlServer* server = PostgresqlServer::shared())
       connection_ = server->createDatabase();
     else
@@ -188,7 +188,7 @@ TEST_P(SqlStore, SaysWhatIsMissingOrTaken)
            [&] {
              store_->updatePoses("none", { { 0, pose, NO_COVARIANCE } });
            },
-           [&] { store_->updateMasks("none", {}); }, [&] { store_->exportSession("none", folder_.file("out.db")); } })
+           [&] { store_->updateMasks("none", {}); }, [&] { store_->exportSession("none", folder_.path("out.db")); } })
   {
     const base::Status status = statusOf(call);
     EXPECT_EQ(status.code, StatusCode::NOT_FOUND);
@@ -214,7 +214,7 @@ TEST_P(SqlStore, RefusesHostileIds)
     EXPECT_EQ(codeOf([&] { store_->session(id); }), StatusCode::INVALID_ARGUMENT) << id;
     EXPECT_EQ(codeOf([&] { store_->deleteSession(id); }), StatusCode::INVALID_ARGUMENT) << id;
     EXPECT_EQ(codeOf([&] { store_->addKeyframe(id, makeKeyframe(0)); }), StatusCode::INVALID_ARGUMENT) << id;
-    EXPECT_EQ(codeOf([&] { store_->exportSession(id, folder_.file("x")); }), StatusCode::INVALID_ARGUMENT) << id;
+    EXPECT_EQ(codeOf([&] { store_->exportSession(id, folder_.path("x")); }), StatusCode::INVALID_ARGUMENT) << id;
   }
   Session session = makeSession("b");
   session.object_id = "../x";

@@ -48,15 +48,15 @@ bool mentions(const base::Status& status, const std::string& text)
 TEST(StoreFaults, MakesAMissingFolder)
 {
   const TemporaryFolder folder;
-  openSqlStore(folder.file("a b=c/d/store.db"))->createSession(makeSession("a"));
-  EXPECT_TRUE(fs::exists(folder.file("a b=c/d/store.db")));
+  openSqlStore(folder.path("a b=c/d/store.db"))->createSession(makeSession("a"));
+  EXPECT_TRUE(fs::exists(folder.path("a b=c/d/store.db")));
 }
 
 TEST(StoreFaults, RefusesPathsThatCannotBeStores)
 {
   const TemporaryFolder folder;
   EXPECT_EQ(statusOf([&] { openSqlStore(""); }).code, StatusCode::INVALID_ARGUMENT);
-  EXPECT_EQ(statusOf([&] { openSqlStore(folder.file("a\" x=\"b")); }).code, StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(statusOf([&] { openSqlStore(folder.path("a\" x=\"b")); }).code, StatusCode::INVALID_ARGUMENT);
   const base::Status status = statusOf([&] { openSqlStore(folder.path()); });
   EXPECT_EQ(status.code, StatusCode::STORAGE);
   EXPECT_TRUE(mentions(status, folder.path())) << status.message;
@@ -65,26 +65,26 @@ TEST(StoreFaults, RefusesPathsThatCannotBeStores)
 TEST(StoreFaults, RefusesAFileThatIsNotSqlite)
 {
   const TemporaryFolder folder;
-  std::ofstream(folder.file("notes.txt")) << std::string(10000, 'x');
-  const base::Status status = statusOf([&] { openSqlStore(folder.file("notes.txt")); });
+  std::ofstream(folder.path("notes.txt")) << std::string(10000, 'x');
+  const base::Status status = statusOf([&] { openSqlStore(folder.path("notes.txt")); });
   EXPECT_EQ(status.code, StatusCode::BAD_INPUT);
   EXPECT_TRUE(mentions(status, "notes.txt") && mentions(status, "not a SQLite database")) << status.message;
-  EXPECT_EQ(fs::file_size(folder.file("notes.txt")), 10000u);
+  EXPECT_EQ(fs::file_size(folder.path("notes.txt")), 10000u);
 }
 
 TEST(StoreFaults, SaysThatAFolderIsNotWritable)
 {
   const TemporaryFolder folder;
-  openSqlStore(folder.file("store.db"))->createSession(makeSession("a"));
+  openSqlStore(folder.path("store.db"))->createSession(makeSession("a"));
   fs::permissions(folder.path(),
                   fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
-  fs::permissions(folder.file("store.db"), fs::perms::owner_read | fs::perms::others_read);
+  fs::permissions(folder.path("store.db"), fs::perms::owner_read | fs::perms::others_read);
   base::Status add, create, make_folder;
   {
     const AsNobody nobody;
-    add = statusOf([&] { openSqlStore(folder.file("store.db"))->addKeyframe("a", makeKeyframe(0)); });
-    create = statusOf([&] { openSqlStore(folder.file("new.db")); });
-    make_folder = statusOf([&] { openSqlStore(folder.file("new/new.db")); });
+    add = statusOf([&] { openSqlStore(folder.path("store.db"))->addKeyframe("a", makeKeyframe(0)); });
+    create = statusOf([&] { openSqlStore(folder.path("new.db")); });
+    make_folder = statusOf([&] { openSqlStore(folder.path("new/new.db")); });
   }
   fs::permissions(folder.path(), fs::perms::all);
   for (const base::Status& status : { add, create, make_folder })
@@ -97,9 +97,9 @@ TEST(StoreFaults, SaysThatAFolderIsNotWritable)
 TEST(StoreFaults, ReportsALockedFileAndGoesOn)
 {
   const TemporaryFolder folder;
-  const std::unique_ptr<SessionStore> store = openSqlStore(folder.file("store.db"));
+  const std::unique_ptr<SessionStore> store = openSqlStore(folder.path("store.db"));
   store->createSession(makeSession("a"));
-  SqlConnection other(makeSqliteDialect(folder.file("store.db"), JournalMode::WAL));
+  SqlConnection other(makeSqliteDialect(folder.path("store.db"), JournalMode::WAL));
   base::Status status;
   other.write("test", [&](soci::session&) { status = statusOf([&] { store->addKeyframe("a", makeKeyframe(0)); }); });
   EXPECT_EQ(status.code, StatusCode::STORAGE);
@@ -112,9 +112,9 @@ TEST(StoreFaults, ReportsALockedFileAndGoesOn)
 TEST(StoreFaults, WaitsForAShortLock)
 {
   const TemporaryFolder folder;
-  const std::unique_ptr<SessionStore> store = openSqlStore(folder.file("store.db"));
+  const std::unique_ptr<SessionStore> store = openSqlStore(folder.path("store.db"));
   store->createSession(makeSession("a"));
-  SqlConnection other(makeSqliteDialect(folder.file("store.db"), JournalMode::WAL));
+  SqlConnection other(makeSqliteDialect(folder.path("store.db"), JournalMode::WAL));
   std::thread writer;
   other.write("test",
               [&](soci::session&)
@@ -154,7 +154,7 @@ TEST(StoreFaults, SurvivesAFullDisk)
   const TemporaryFolder folder;
   if (geteuid() != 0 || mount("tmpfs", folder.path().c_str(), "tmpfs", 0, "size=8m") != 0)
     GTEST_SKIP() << "a small file system can only be mounted by root; the file size limit stands in for it";
-  fillAndRecover(folder.file("store.db"), [&] { mount("", folder.path().c_str(), "", MS_REMOUNT, "size=32m"); });
+  fillAndRecover(folder.path("store.db"), [&] { mount("", folder.path().c_str(), "", MS_REMOUNT, "size=32m"); });
   umount2(folder.path().c_str(), MNT_DETACH);
 }
 
@@ -167,7 +167,7 @@ TEST(StoreFaults, SurvivesAFileSizeLimit)
   limit.rlim_cur = 4 << 20;
   const auto before = signal(SIGXFSZ, SIG_IGN);
   setrlimit(RLIMIT_FSIZE, &limit);
-  fillAndRecover(folder.file("store.db"), [&] { setrlimit(RLIMIT_FSIZE, &unlimited); });
+  fillAndRecover(folder.path("store.db"), [&] { setrlimit(RLIMIT_FSIZE, &unlimited); });
   setrlimit(RLIMIT_FSIZE, &unlimited);
   signal(SIGXFSZ, before);
 }
@@ -175,20 +175,20 @@ TEST(StoreFaults, SurvivesAFileSizeLimit)
 TEST(StoreFaults, GivesTheSpaceOfADeletedSessionBack)
 {
   const TemporaryFolder folder;
-  const std::unique_ptr<SessionStore> store = openSqlStore(folder.file("store.db"));
+  const std::unique_ptr<SessionStore> store = openSqlStore(folder.path("store.db"));
   store->createSession(makeSession("a"));
   for (int id = 0; id < 10; ++id)
     store->addKeyframe("a", makeKeyframe(id, 320, 240));
   store->deleteSession("a");
-  const std::unique_ptr<SessionStore> other = openSqlStore(folder.file("store.db"));
+  const std::unique_ptr<SessionStore> other = openSqlStore(folder.path("store.db"));
   other->createSession(makeSession("b"));
-  EXPECT_LT(fs::file_size(folder.file("store.db")), 100000u);
+  EXPECT_LT(fs::file_size(folder.path("store.db")), 100000u);
 }
 
 TEST(StoreFaults, KeepsCommittedKeyframesWhenKilled)
 {
   const TemporaryFolder folder;
-  const std::string path = folder.file("store.db");
+  const std::string path = folder.path("store.db");
   openSqlStore(path)->createSession(makeSession("a"));
   int committed_total = 0;
   for (int round = 0; round < 5; ++round)

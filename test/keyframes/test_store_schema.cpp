@@ -17,7 +17,7 @@ protected:
   void SetUp() override
   {
     if (GetParam() == "sqlite")
-      connection_ = folder_.file("store.db");
+      connection_ = folder_.path("store.db");
     else if (PostgresqlServer* server = PostgresqlServer::shared())
       connection_ = server->createDatabase();
     else

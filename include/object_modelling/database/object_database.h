@@ -12,26 +12,35 @@ namespace object_modelling::database
 struct ObjectEntry
 {
   std::string id, name;
-  std::string content_hash;  ///< SHA-256 over the object's files
+  std::string content_hash;  ///< SHA-256 of object.yaml, which holds that of every other file
   std::vector<ModelSession> sessions;
-  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  ///< of box_model
+  geometry::OrientedBox box_model;
   double diameter_m = 0;
+  std::vector<Eigen::Isometry3d> T_support_model;  ///< resting poses
   std::map<std::string, double> quality;
   std::string mesh_path;  ///< absolute, mesh/mesh.ply
 };
 
+/// Throws base::Error (INVALID_ARGUMENT) for names that no object can have: all but keyframes::isValidId(), and the
+/// names of the database's own files.
+void checkObjectId(const std::string& object_id);
+
 /// A folder of models, readable without us (layout: docs/object_database.md). Every write goes to a temporary folder
 /// inside the root and is renamed; a crash leaves the old object whole. Several readers, one writer (a lock file).
-/// Throws base::Error: STORAGE (not writable, disk full, newer schema), NOT_FOUND, INVALID_ARGUMENT (object id).
+/// Safe for several threads. Throws base::Error: STORAGE (not writable, disk full, newer schema), NOT_FOUND,
+/// INVALID_ARGUMENT (object id).
 class ObjectDatabase
 {
 public:
   /// Opens; creates the folder and an empty manifest if `create`. Checks at once that it can be written if `create`.
   ObjectDatabase(const std::string& root, bool create);
 
+  /// By id. Objects that cannot be read are left out with a warning; check() names them.
   std::vector<ObjectEntry> list() const;
   ObjectEntry entry(const std::string& object_id) const;
-  /// Writes or replaces one object in one atomic step; returns its folder.
+  /// Writes or replaces one object in one atomic step; returns its folder. The same model gives the same bytes.
+  /// Cancelling leaves the database as it was.
   std::string write(const ObjectModel& model, base::JobControl& control);
   void remove(const std::string& object_id);
   /// Every broken file, hash, unit or frame, one message each; empty when sound.

@@ -1,0 +1,118 @@
+#include <filesystem>
+
+#include "content_hash.h"
+#include "manifest.h"
+#include "object_modelling/database/object_database.h"
+#include "object_yaml.h"
+#include "yaml_text.h"
+
+namespace object_modelling::database
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr double RIGID_TOLERANCE = 1e-6;
+
+using Problems = std::vector<std::string>;
+
+void checkUnits(const std::string& path, const std::string& unit, const std::string& handedness, Problems* problems)
+{
+  if (unit != UNIT)
+    problems->push_back(path + ": unit is '" + unit + "', must be '" + UNIT + "'");
+  if (handedness != HANDEDNESS)
+    problems->push_back(path + ": handedness is '" + handedness + "', must be '" + HANDEDNESS + "'");
+}
+
+bool rigid(const Eigen::Isometry3d& T)
+{
+  const Eigen::Matrix3d R = T.linear();
+  return T.matrix().allFinite() && (R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < RIGID_TOLERANCE &&
+         R.determinant() > 0 && T.matrix().row(3) == Eigen::RowVector4d(0, 0, 0, 1);
+}
+
+void checkFrames(const std::string& path, const ObjectEntry& entry, Problems* problems)
+{
+  const auto check = [&](const Eigen::Isometry3d& T, const std::string& name)
+  {
+    if (!rigid(T))
+      problems->push_back(path + ": " + name + " is no rigid transform");
+  };
+  if (!(entry.size_m.minCoeff() > 0) || !(entry.diameter_m > 0))
+    problems->push_back(path + ": size_m and diameter_m must be greater than 0");
+  check(entry.box_model.T_frame_box, "model_from_box");
+  for (const Eigen::Isometry3d& T_support_model : entry.T_support_model)
+    check(T_support_model, "support_from_model");
+  for (const ModelSession& session : entry.sessions)
+    check(session.T_model_session, "model_from_session of session '" + session.id + "'");
+}
+
+void checkFiles(const std::string& folder, const std::map<std::string, std::string>& expected, Problems* problems)
+{
+  const std::map<std::string, std::string> found = hashesOfFolder(folder);
+  for (const auto& [file, hash] : expected)
+  {
+    const auto match = found.find(file);
+    if (match == found.end())
+      problems->push_back(folder + "/" + file + " is missing");
+    else if (match->second != hash)
+      problems->push_back(folder + "/" + file + " has been changed: its SHA-256 is not the one in object.yaml");
+  }
+  for (const auto& [file, hash] : found)
+    if (expected.count(file) == 0)
+      problems->push_back(folder + "/" + file + " is not listed in object.yaml");
+}
+
+void checkObject(const std::string& folder, const std::string& id, const std::string& content_hash, Problems* problems)
+{
+  if (!fs::is_directory(folder))
+  {
+    problems->push_back(folder + " is missing, but listed in manifest.yaml");
+    return;
+  }
+  const std::string path = folder + "/object.yaml";
+  const ObjectDescription object = readObject(folder);
+  if (object.entry.content_hash != content_hash)
+    problems->push_back(path + " has been changed: its SHA-256 is not the content_hash in manifest.yaml");
+  if (object.entry.id != id)
+    problems->push_back(path + ": id is '" + object.entry.id + "', but the folder is '" + id + "'");
+  checkUnits(path, object.unit, object.handedness, problems);
+  checkFrames(path, object.entry, problems);
+  checkFiles(folder, object.file_hashes, problems);
+}
+}  // namespace
+
+std::vector<std::string> ObjectDatabase::check() const
+{
+  Problems problems;
+  Manifest manifest;
+  try
+  {
+    manifest = readManifest(manifestPath(root_));
+  }
+  catch (const base::Error& error)
+  {
+    return { error.what() };
+  }
+  checkUnits(manifestPath(root_), manifest.unit, manifest.handedness, &problems);
+  for (const auto& [id, content_hash] : manifest.objects)
+  {
+    try
+    {
+      checkObject(root_ + "/" + id, id, content_hash, &problems);
+    }
+    catch (const std::exception& error)  // of the file system, or of our own reading
+    {
+      problems.emplace_back(error.what());
+    }
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(root_))
+  {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_directory() && name[0] != '.' && name != "exports" && manifest.objects.count(name) == 0)
+      problems.push_back(entry.path().string() + " is a folder that manifest.yaml does not list");
+  }
+  return problems;
+}
+
+}  // namespace object_modelling::database
