@@ -11,11 +11,11 @@ namespace object_modelling::rgbd
 namespace
 {
 /// Normal of the plane w = w_centre + a (u - u_centre) + b (v - v_centre), towards the camera.
-inline cv::Vec3f normalOf(const geometry::PinholeCamera& camera, int u, int v, float a, float b, float w_centre)
+inline cv::Vec3f normalOf(const FloatIntrinsics& camera, int u, int v, float a, float b, float w_centre)
 {
-  const float x = a * static_cast<float>(camera.fx);
-  const float y = b * static_cast<float>(camera.fy);
-  const float z = w_centre + a * static_cast<float>(camera.cx - u) + b * static_cast<float>(camera.cy - v);
+  const float x = a * camera.fx;
+  const float y = b * camera.fy;
+  const float z = w_centre + a * (camera.cx - static_cast<float>(u)) + b * (camera.cy - static_cast<float>(v));
   const float scale = -1.0f / std::sqrt(x * x + y * y + z * z);
   return { x * scale, y * scale, z * scale };
 }
@@ -121,11 +121,12 @@ void WholeWindowFit::row(int v, const std::uint8_t* marked, cv::Vec3f* normals)
     }
   }
   // sum of du^2 over the window: window * 2 (1 + 4 + ... + r^2)
-  const float squares = static_cast<float>(window_ * radius_ * (radius_ + 1) * window_) / 3.0f;
-  const float count = static_cast<float>(window_ * window_);
+  const float per_squares = 3.0f / static_cast<float>(window_ * radius_ * (radius_ + 1) * window_);
+  const float per_count = 1.0f / static_cast<float>(window_ * window_);
   for (int u = 0; u < width_; ++u)
     if (marked[u])
-      normals[u] = normalOf(camera_, u, v, total_u_w_[u] / squares, total_v_w_[u] / squares, total_w_[u] / count);
+      normals[u] =
+          normalOf(camera_, u, v, total_u_w_[u] * per_squares, total_v_w_[u] * per_squares, total_w_[u] * per_count);
 }
 
 GatedWindowFit::GatedWindowFit(const PaddedDepth& padded, const geometry::PinholeCamera& camera,
@@ -197,20 +198,22 @@ void GatedWindowFit::solve(const Moments& moments, int lane, int u, int v, cv::V
   const float n = moments.n[lane];
   if (n < min_count_)
     return;
-  const float mean_u = moments.u[lane] / n;
-  const float mean_v = moments.v[lane] / n;
-  const float mean_w = moments.w[lane] / n;
-  const float c_uu = moments.uu[lane] / n - mean_u * mean_u;
-  const float c_uv = moments.uv[lane] / n - mean_u * mean_v;
-  const float c_vv = moments.vv[lane] / n - mean_v * mean_v;
-  const float c_uw = moments.uw[lane] / n - mean_u * mean_w;
-  const float c_vw = moments.vw[lane] / n - mean_v * mean_w;
+  const float per_n = 1.0f / n;
+  const float mean_u = moments.u[lane] * per_n;
+  const float mean_v = moments.v[lane] * per_n;
+  const float mean_w = moments.w[lane] * per_n;
+  const float c_uu = moments.uu[lane] * per_n - mean_u * mean_u;
+  const float c_uv = moments.uv[lane] * per_n - mean_u * mean_v;
+  const float c_vv = moments.vv[lane] * per_n - mean_v * mean_v;
+  const float c_uw = moments.uw[lane] * per_n - mean_u * mean_w;
+  const float c_vw = moments.vw[lane] * per_n - mean_v * mean_w;
   const float determinant = c_uu * c_vv - c_uv * c_uv;
   // Pixels of one line leave the plane free to turn about it.
   if (determinant < 0.02f * (c_uu + c_vv) * (c_uu + c_vv))
     return;
-  const float a = (c_uw * c_vv - c_vw * c_uv) / determinant;
-  const float b = (c_vw * c_uu - c_uw * c_uv) / determinant;
+  const float per_determinant = 1.0f / determinant;
+  const float a = (c_uw * c_vv - c_vw * c_uv) * per_determinant;
+  const float b = (c_vw * c_uu - c_uw * c_uv) * per_determinant;
   *normal = normalOf(camera_, u, v, a, b, padded_.inverseRow(v)[u] + mean_w - a * mean_u - b * mean_v);
 }
 

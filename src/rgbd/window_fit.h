@@ -14,6 +14,18 @@ namespace object_modelling::rgbd
 /// n ~ (A fx, B fy, A cx + B cy + C). The two fits below find A, B, C by least squares over a square window: in closed
 /// form where the whole window is one surface, by gated sums where it is not.
 
+struct FloatIntrinsics
+{
+  explicit FloatIntrinsics(const geometry::PinholeCamera& camera)
+      : fx(static_cast<float>(camera.fx)),
+        fy(static_cast<float>(camera.fy)),
+        cx(static_cast<float>(camera.cx)),
+        cy(static_cast<float>(camera.cy))
+  {
+  }
+  float fx, fy, cx, cy;
+};
+
 /// Depth and inverse depth with a margin of one window radius; 0 where missing and in the margin.
 class PaddedDepth
 {
@@ -50,7 +62,7 @@ private:
   float* sums(std::vector<float>* ring, int v) { return ring->data() + ((v + radius_) % window_) * width_; }
 
   const PaddedDepth& padded_;
-  geometry::PinholeCamera camera_;
+  FloatIntrinsics camera_;
   int radius_, window_, width_;
   int next_row_;                        ///< first image row whose horizontal sums are not in the rings yet
   std::vector<float> sum_w_, sum_u_w_;  ///< rings of `window_` rows: sum of w, of du w
@@ -77,7 +89,7 @@ private:
   void solve(const Moments& moments, int lane, int u, int v, cv::Vec3f* normal) const;
 
   const PaddedDepth& padded_;
-  geometry::PinholeCamera camera_;
+  FloatIntrinsics camera_;
   float step_ratio_;
   float min_count_;
 };
