@@ -4,5 +4,5 @@
 int main(int argc, char** argv)
 {
   using namespace object_modelling::nodes;
-  return runNode<CameraTrackerNode>(argc, argv, "camera_tracker", readCameraTrackerOptions);
+  return runNode<CameraTrackerNode>(argc, argv, "camera_tracker", optionsFrom<CameraTrackerNodeOptions>);
 }

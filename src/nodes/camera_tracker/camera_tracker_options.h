@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "../common/store_parameters.h"
 #include "object_modelling/rgbd/frame_builder.h"
-#include "object_modelling/ros_bridge/param_reader.h"
 #include "object_modelling/ros_bridge/remote_session_store.h"
 #include "object_modelling/tracking/camera_tracker.h"
 
@@ -31,6 +31,32 @@ struct CameraTrackerNodeOptions
   std::vector<std::string> violations() const;
 };
 
-CameraTrackerNodeOptions readCameraTrackerOptions(ros_bridge::ParamReader& reader);
+template <typename Reader>
+void read(Reader& reader, CameraTrackerNodeOptions* options)
+{
+  reader.read("reference", options->tracker.reference,
+              { { "scene", tracking::Reference::SCENE }, { "object", tracking::Reference::OBJECT } });
+  reader.read("tracker/max_features", options->tracker.max_features);
+  reader.read("tracker/min_inliers", options->tracker.min_inliers);
+  reader.read("tracker/min_inlier_ratio", options->tracker.min_inlier_ratio);
+  reader.read("tracker/max_reprojection_error_px", options->tracker.max_reprojection_error_px);
+  reader.read("tracker/keyframe_angle_rad", options->tracker.keyframe_angle_rad);
+  reader.read("tracker/keyframe_distance_ratio", options->tracker.keyframe_distance_ratio);
+  reader.read("tracker/seed", options->tracker.seed);
+  reader.read("frame/max_stamp_difference_s", options->frame.max_stamp_difference_s);
+  reader.read("frame/min_depth_ratio", options->frame.min_depth_ratio);
+  reader.read("frame/min_depth_m", options->frame.min_depth_m);
+  reader.read("frame/max_depth_m", options->frame.max_depth_m);
+  reader.read("use_store", options->use_store);
+  reader.read("stored_timeout_s", options->stored_timeout_s);
+  reader.read("session_frame_id", options->session_frame_id);
+  reader.read("tf_direction", options->tf_direction,
+              { { "session_below_camera", TfDirection::SESSION_BELOW_CAMERA },
+                { "camera_below_session", TfDirection::CAMERA_BELOW_SESSION },
+                { "none", TfDirection::NONE } });
+  reader.read("input_timeout_s", options->input_timeout_s);
+  reader.read("require_registered", options->require_registered);
+  read(reader, &options->store);
+}
 
 }  // namespace object_modelling::nodes

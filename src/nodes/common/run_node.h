@@ -16,10 +16,11 @@ template <typename Node, typename Options>
 int runNode(int argc, char** argv, const std::string& name, Options (*readOptions)(ros_bridge::ParamReader&))
 {
   ros::init(argc, argv, name);
+  // Outside the try block: with its last handle a node shuts down, and nothing is logged any more.
+  ros::NodeHandle node;
+  ros::NodeHandle private_node("~");
   try
   {
-    ros::NodeHandle node;
-    ros::NodeHandle private_node("~");
     const ros_bridge::RosLogSink log_sink;
     ros_bridge::ParamReader reader(private_node);
     const Options options = readOptions(reader);

@@ -4,5 +4,5 @@
 int main(int argc, char** argv)
 {
   using namespace object_modelling::nodes;
-  return runNode<KeyframeStore>(argc, argv, "keyframe_store", readKeyframeStoreOptions);
+  return runNode<KeyframeStore>(argc, argv, "keyframe_store", optionsFrom<KeyframeStoreOptions>);
 }

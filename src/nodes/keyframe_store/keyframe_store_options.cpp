@@ -25,20 +25,6 @@ std::vector<std::string> KeyframeStoreOptions::violations() const
   return check.violations();
 }
 
-KeyframeStoreOptions readKeyframeStoreOptions(ros_bridge::ParamReader& reader)
-{
-  KeyframeStoreOptions options;
-  reader.read("store_path", options.store_path);
-  reader.read("session_frame_id", options.session_frame_id);
-  reader.read("preview_rate_hz", options.preview_rate_hz);
-  reader.read("preview/voxel_size_m", options.preview.voxel_size_m);
-  reader.read("preview/max_depth_m", options.preview.max_depth_m);
-  reader.read("preview/max_points", options.preview.max_points);
-  reader.read("preview/max_keyframes", options.preview.max_keyframes);
-  reader.include(options.violations());
-  return options;
-}
-
 std::string storeConnection(const std::string& store_path)
 {
   const std::string home = environment("HOME");

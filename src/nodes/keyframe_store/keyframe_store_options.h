@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "object_modelling/ros_bridge/param_reader.h"
 #include "session_preview.h"
 
 namespace object_modelling::nodes
@@ -19,7 +18,17 @@ struct KeyframeStoreOptions
   std::vector<std::string> violations() const;
 };
 
-KeyframeStoreOptions readKeyframeStoreOptions(ros_bridge::ParamReader& reader);
+template <typename Reader>
+void read(Reader& reader, KeyframeStoreOptions* options)
+{
+  reader.read("store_path", options->store_path);
+  reader.read("session_frame_id", options->session_frame_id);
+  reader.read("preview_rate_hz", options->preview_rate_hz);
+  reader.read("preview/voxel_size_m", options->preview.voxel_size_m);
+  reader.read("preview/max_depth_m", options->preview.max_depth_m);
+  reader.read("preview/max_points", options->preview.max_points);
+  reader.read("preview/max_keyframes", options->preview.max_keyframes);
+}
 
 /// The connection for openSqlStore, with home folder and default filled in.
 std::string storeConnection(const std::string& store_path);
