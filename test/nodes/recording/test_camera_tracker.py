@@ -1,0 +1,272 @@
+#!/usr/bin/python3
+"""camera_tracker over its real topics and services: good runs, every bad input, wrong orders, resuming, two systems
+side by side."""
+import os
+import sys
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+import tf2_ros
+from geometry_msgs.msg import PoseWithCovarianceStamped
+from sensor_msgs.msg import Image
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+# pylint: disable=wrong-import-position
+from node_process import NodeProcess
+from synthetic_camera import SCENE, SyntheticCamera
+from object_modelling import srv
+from object_modelling.msg import Keyframe, Status, TrackingState
+
+TRACKED = (TrackingState.TRACKING, TrackingState.RELOCALISED)
+
+
+class Tracker:
+    """Services of one namespace."""
+
+    def __init__(self, namespace):
+        self.start = self._service(namespace + "/camera_tracker/start", srv.StartTracking)
+        self.stop = self._service(namespace + "/camera_tracker/stop", srv.StopTracking)
+        self.reset = self._service(namespace + "/camera_tracker/reset", srv.ResetTracking)
+
+    @staticmethod
+    def _service(name, kind):
+        rospy.wait_for_service(name, 20)
+        return rospy.ServiceProxy(name, kind)
+
+
+def get_session(namespace, session_id):
+    rospy.wait_for_service(namespace + "/keyframe_store/get_session", 20)
+    return rospy.ServiceProxy(namespace + "/keyframe_store/get_session", srv.GetSession)(session_id)
+
+
+class CameraTrackerTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.camera = SyntheticCamera("left", "left_optical")
+        cls.tracker = Tracker("left")
+        cls.camera.wait_for_listeners()
+        cls.buffer = tf2_ros.Buffer()
+        cls.listener = tf2_ros.TransformListener(cls.buffer)
+
+    def setUp(self):
+        self.tracker.reset()
+        self.camera.states = []
+
+    def start(self, session_id, **more):
+        response = self.tracker.start(session_id=session_id, **more)
+        self.assertEqual(response.status.code, Status.OK, response.status.message)
+        return response.session_id
+
+    def test_good_run(self):
+        poses, keyframes = {}, []
+        subscribers = [
+            rospy.Subscriber("left/camera_tracker/pose", PoseWithCovarianceStamped,
+                             lambda pose: poses.update({pose.header.stamp: pose})),
+            rospy.Subscriber("left/camera_tracker/keyframe", Keyframe, keyframes.append),
+        ]
+        rospy.sleep(0.5)
+        self.start("good", object_id="mug")
+        stamps = []
+        for index in range(45):
+            state = self.camera.track(index)
+            self.assertIn(state.status, TRACKED, "frame %d: %s" % (index, state.reason))
+            self.assertTrue(state.input_ok and state.recording)
+            self.assertEqual(state.session_id, "good")
+            stamps.append(state.header.stamp)
+        self.assertEqual((state.frame_count, state.tracked_count, state.dropped_frames), (45, 45, 0))
+        self.assertGreaterEqual(state.keyframe_count, 2)
+
+        ended = self.tracker.stop()
+        self.assertEqual(ended.status.code, Status.OK, ended.status.message)
+        self.assertEqual((ended.session_id, ended.frame_count), ("good", 45))
+        rospy.sleep(0.3)
+        self.assertEqual(sorted(poses), stamps)
+        pose = poses[stamps[-1]]
+        self.assertEqual(pose.header.frame_id, "left_session")
+        _, centre = SCENE.world_from_camera(44)
+        position = pose.pose.pose.position
+        error = np.linalg.norm(np.array([position.x, position.y, position.z]) - centre)
+        self.assertLess(error, 0.005, "position is off by %.4f m" % error)
+
+        # tf hangs the session below the camera: the inverse of the pose.
+        transform = self.buffer.lookup_transform("left_session", "left_optical", stamps[-1],
+                                                 rospy.Duration(2)).transform
+        self.assertAlmostEqual(transform.translation.x, position.x, 6)
+
+        stored = get_session("left", "good")
+        self.assertEqual(stored.status.code, Status.OK)
+        self.assertTrue(stored.session.closed)
+        self.assertEqual(stored.session.object_id, "mug")
+        self.assertEqual(stored.session.camera_frame_id, "left_optical")
+        self.assertEqual(list(stored.keyframe_ids), [k.keyframe_id for k in keyframes])
+        self.assertEqual(stored.session.started, stamps[0])
+        for subscriber in subscribers:
+            subscriber.unregister()
+
+    def test_wrong_order(self):
+        response = self.tracker.stop()
+        self.assertEqual(response.status.code, Status.FAILED_PRECONDITION)
+        self.assertIn("start", response.status.message)
+        self.start("order")
+        response = self.tracker.start(session_id="other")
+        self.assertEqual(response.status.code, Status.FAILED_PRECONDITION)
+        self.assertIn("'order'", response.status.message)
+        self.camera.track(0)
+        response = self.tracker.reset()
+        self.assertEqual((response.status.code, response.session_id), (Status.OK, "order"))
+        self.assertEqual(self.tracker.reset().session_id, "")
+
+    def test_ids(self):
+        for bad in ("../x", "a b", "-x", "x" * 65):
+            self.assertEqual(self.tracker.start(session_id=bad).status.code, Status.INVALID_ARGUMENT, bad)
+        self.camera.track(0)
+        first = self.start("")
+        self.assertRegex(first, r"^session_\d{8}_\d{6}_\d{3}")
+        self.camera.track(0)
+        self.tracker.stop()
+        response = self.tracker.start(session_id=first)
+        self.assertEqual(response.status.code, Status.FAILED_PRECONDITION)
+        self.assertIn(first, response.status.message)
+
+    def test_resume(self):
+        self.start("resumed")
+        for index in range(3):
+            self.camera.track(index)
+        self.tracker.stop()
+        before = get_session("left", "resumed")
+        self.assertEqual(self.tracker.start(session_id="nobody", resume=True).status.code, Status.NOT_FOUND)
+        self.start("resumed", resume=True)
+        self.assertFalse(get_session("left", "resumed").session.closed)
+        states = [self.camera.track(index) for index in range(1, 45)]
+        self.assertIn(states[-1].status, TRACKED, states[-1].reason)
+        ended = self.tracker.stop()
+        self.assertEqual(ended.status.code, Status.OK, ended.status.message)
+        after = get_session("left", "resumed")
+        self.assertGreater(len(after.keyframe_ids), len(before.keyframe_ids))
+        self.assertEqual(len(set(after.keyframe_ids)), len(after.keyframe_ids))
+
+    def test_encodings(self):
+        for color, depth in (("rgb8", "16UC1"), ("mono8", "32FC1")):
+            state = self.camera.track(0, color_encoding=color, depth_encoding=depth)
+            self.assertTrue(state.input_ok, state.reason)
+
+    def test_bad_frames_are_named_and_survived(self):
+        self.start("bad")
+        for index in range(3):
+            self.camera.track(index)
+        for faults, expected in (
+                (dict(depth_scale=2), "160"),
+                (dict(color_encoding="h264"), "h264"),
+                (dict(depth_encoding="64FC9"), "64FC9"),
+                (dict(without_depth=True), "depth"),
+                (dict(covered=True), "depth"),
+                (dict(depth_frame_id="ir_optical"), "ir_optical")):
+            state = self.camera.track(3, **faults)
+            self.assertEqual(state.status, TrackingState.LOST, faults)
+            self.assertFalse(state.input_ok)
+            self.assertIn(expected, state.reason)
+        states = [self.camera.track(3) for _ in range(5)]
+        self.assertIn(states[-1].status, TRACKED, states[-1].reason)
+        self.assertTrue(states[-1].input_ok)
+        self.assertEqual(self.tracker.stop().status.code, Status.OK)
+
+    def test_debug_image(self):
+        images = []
+        subscriber = rospy.Subscriber("left/camera_tracker/debug_image", Image, images.append)
+        rospy.sleep(0.5)
+        self.start("debug")
+        for index in range(3):
+            self.camera.track(index)
+        self.tracker.stop()
+        rospy.sleep(0.3)
+        subscriber.unregister()
+        self.assertEqual(len(images), 3)
+        self.assertEqual((images[0].encoding, images[0].header.frame_id), ("bgr8", "left_optical"))
+
+    def test_side_by_side(self):
+        other = SyntheticCamera("right", "right_optical")
+        other_tracker = Tracker("right")
+        other.wait_for_listeners()
+        self.start("both")
+        self.assertEqual(other_tracker.start(session_id="both").status.code, Status.OK)
+        for index in range(5):
+            self.assertIn(self.camera.track(index).status, TRACKED)
+            state = other.track(2 * index)
+            self.assertIn(state.status, TRACKED)
+        self.assertEqual(self.tracker.stop().status.code, Status.OK)
+        self.assertEqual(other_tracker.stop().status.code, Status.OK)
+        self.assertEqual(get_session("right", "both").session.camera_frame_id, "right_optical")
+        # Here the camera hangs below the session.
+        transform = self.buffer.lookup_transform("right_session", "right_optical", state.header.stamp,
+                                                 rospy.Duration(2)).transform
+        self.assertAlmostEqual(transform.translation.x, 0.032, 2)
+        self.assertEqual(self.parent_of("right_optical"), "right_session")
+        self.assertEqual(self.parent_of("left_session"), "left_optical")
+
+    def parent_of(self, frame):
+        for line in self.buffer.all_frames_as_string().splitlines():
+            if line.startswith("Frame %s exists with parent" % frame):
+                return line.split("parent ")[1].rstrip(".")
+        return None
+
+
+class SilentInputsTest(unittest.TestCase):
+    def test_1_silent_topics_are_named(self):
+        camera = SyntheticCamera("silent", with_info=False)
+        state = camera.wait_for_state(lambda s: "/silent/rgb/image_rect_color" in s.reason)
+        self.assertFalse(state.input_ok)
+        end = rospy.get_time() + 10
+        while rospy.get_time() < end and not any("camera_info" in s.reason and "image" not in s.reason.split(";")[0]
+                                                 for s in camera.states):
+            camera.send(0)
+            rospy.sleep(0.1)
+        self.assertIn("no message on /silent/rgb/camera_info yet", camera.states[-1].reason)
+
+    def test_2_unsynchronised_streams(self):
+        camera = SyntheticCamera("silent")
+        camera.wait_for_listeners()
+        end = rospy.get_time() + 10
+        while rospy.get_time() < end and not any("synchronised" in s.reason for s in camera.states):
+            camera.send(0, depth_shift_s=500.0)
+            rospy.sleep(0.1)
+        reason = camera.wait_for_state(lambda s: "synchronised" in s.reason).reason
+        self.assertIn("0.02", reason)
+
+    def test_object_mode_waits_for_masks(self):
+        camera = SyntheticCamera("object", with_masks=True)
+        tracker = Tracker("object")
+        camera.wait_for_listeners()
+        self.assertEqual(tracker.start(session_id="masked").status.code, Status.OK)
+        for index in range(3):
+            self.assertIn(camera.track(index).status, TRACKED)
+        for _ in range(20):
+            camera.send(3, with_mask=False)
+            rospy.sleep(0.1)
+        self.assertIn("object_mask", camera.wait_for_state(lambda s: not s.input_ok).reason)
+        self.assertIn(camera.track(3).status, TRACKED)
+        ended = tracker.stop()
+        self.assertEqual((ended.frame_count, ended.dropped_frames), (4, 20))
+
+    def test_no_store(self):
+        response = Tracker("alone").start(session_id="x")
+        self.assertEqual(response.status.code, Status.FAILED_PRECONDITION)
+        self.assertIn("/alone/camera_tracker/keyframe", response.status.message)
+
+
+class ParametersTest(unittest.TestCase):
+    def test_all_mistakes_are_said(self):
+        rospy.set_param("mistaken/tracker/max_featuers", 3)
+        rospy.set_param("mistaken/tracker/seed", "one")
+        rospy.set_param("mistaken/reference", "moon")
+        rospy.set_param("mistaken/input_timeout_s", -1)
+        code, output = NodeProcess("camera_tracker", "__name:=mistaken").wait()
+        self.assertEqual(code, 1)
+        for text in ("tracker/max_featuers", "tracker/seed", "moon", "input_timeout_s"):
+            self.assertIn(text, output)
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_camera_tracker")
+    rostest.rosrun("object_modelling", "test_camera_tracker", "__main__")
