@@ -32,7 +32,9 @@ void removeContradicted(const std::vector<View>& views, const CloudFusionOptions
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(surfels->size()); ++i)
   {
     const Surfel& surfel = (*surfels)[i];
-    const Votes votes = castVotes(views, surfel.point, surfel.normal, surfel.sigma_m, options.consistency_sigmas);
+    const auto reach_m = static_cast<float>(options.consistency_sigmas) * surfel.sigma_m;
+    const SurfacePoint surface{ surfel.point, surfel.normal, surfel.point - reach_m * surfel.normal, surfel.sigma_m };
+    const Votes votes = castVotes(views, surface, options.consistency_sigmas);
     keep[i] = !votes.outvoted() && votes.object >= options.min_views && votes.object > votes.background;
   }
   std::size_t kept = 0;

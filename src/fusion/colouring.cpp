@@ -12,7 +12,7 @@ namespace object_modelling::fusion
 namespace
 {
 constexpr int BEST_VIEWS = 8;             ///< per surfel; more blur the print
-constexpr float MIN_COSINE = 0.3f;        ///< flatter sights show smeared colour
+constexpr float MIN_COSINE = 0.05f;       ///< flatter sights count as if they were so flat
 constexpr float FULL_RIM_DISTANCE = 4.f;  ///< px from the mask's rim from which on colour is trusted in full
 constexpr int GAIN_ITERATIONS = 3;
 
@@ -48,18 +48,19 @@ std::vector<Sample> bestSamples(const std::vector<View>& views, const std::vecto
       continue;
     const Eigen::Vector3f to_camera = view.p_session_camera - surfel.point;
     const float cosine = surfel.normal.dot(to_camera) / to_camera.norm();
-    if (cosine < MIN_COSINE)
+    if (!(cosine > 0))
       continue;
     const Projection at = project(view, surfel.point);
     if (!at.inside)
       continue;
-    const double tolerance_m = consistency_sigmas * rgbd::axialSigma_m(at.z_m, std::acos(std::min(cosine, 1.f)));
+    const double tolerance_m = consistency_sigmas * std::hypot(surfel.sigma_m, rgbd::axialSigma_m(at.z_m, 0));
     const float rim_px = rim_distances_px[i].at<float>(at.row, at.column);
     if (!(std::abs(view.frame->depth_m.at<float>(at.row, at.column) - at.z_m) <= tolerance_m) || rim_px <= 0)
       continue;
     Sample sample;
     sample.view = i;
-    sample.weight = cosine * cosine / (at.z_m * at.z_m) * std::min(1.f, rim_px / FULL_RIM_DISTANCE);
+    sample.weight =
+        std::pow(std::max(cosine, MIN_COSINE), 2.f) / (at.z_m * at.z_m) * std::min(1.f, rim_px / FULL_RIM_DISTANCE);
     sample.rgb = bilinearRgb(view.frame->color_bgr, at.u_px, at.v_px);
     samples.push_back(sample);
   }

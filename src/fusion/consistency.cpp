@@ -7,8 +7,20 @@
 
 namespace object_modelling::fusion
 {
-Votes castVotes(const std::vector<View>& views, const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
-                float axial_sigma_m, double consistency_sigmas, int own_view)
+namespace
+{
+bool seesThrough(const View& view, const Eigen::Vector3f& point, float tolerance_m)
+{
+  const Projection at = project(view, point);
+  if (!at.inside)
+    return false;
+  const float nearest_m = view.nearest_depth_m.at<float>(at.row, at.column);
+  return std::isfinite(nearest_m) && nearest_m > at.z_m + tolerance_m;
+}
+
+}  // namespace
+
+Votes castVotes(const std::vector<View>& views, const SurfacePoint& surface, double consistency_sigmas, int own_view)
 {
   Votes votes;
   for (int i = 0; i < static_cast<int>(views.size()); ++i)
@@ -16,21 +28,20 @@ Votes castVotes(const std::vector<View>& views, const Eigen::Vector3f& point, co
     if (i == own_view)
       continue;
     const View& view = views[i];
-    const Projection at = project(view, point);
+    const Projection at = project(view, surface.point);
     if (!at.inside)
       continue;
-    const float nearest_m = view.nearest_depth_m.at<float>(at.row, at.column);
-    if (!std::isfinite(nearest_m))
-      continue;
-    const double sigma_m = std::hypot(axial_sigma_m, rgbd::axialSigma_m(at.z_m, 0));
+    const double sigma_m = std::hypot(surface.axial_sigma_m, rgbd::axialSigma_m(at.z_m, 0));
     const auto tolerance_m = static_cast<float>(consistency_sigmas * sigma_m);
-    if (nearest_m > at.z_m + tolerance_m)
+    if (seesThrough(view, surface.point, tolerance_m))
     {
-      ++votes.seen_through;
+      if (seesThrough(view, surface.farthest, tolerance_m) &&
+          seesThrough(view, 0.5f * (surface.point + surface.farthest), tolerance_m))
+        ++votes.seen_through;
       continue;
     }
     const float depth_m = view.frame->depth_m.at<float>(at.row, at.column);
-    const bool facing = normal.dot(view.p_session_camera - point) > 0;
+    const bool facing = surface.normal.dot(view.p_session_camera - surface.point) > 0;
     if (!facing || !(std::abs(depth_m - at.z_m) <= tolerance_m))
       continue;
     ++votes.same;
@@ -48,13 +59,16 @@ std::size_t removeSeenThrough(const std::vector<View>& views, double consistency
   for (int i = 0; i < static_cast<int>(observations_per_view->size()); ++i)
   {
     std::vector<Observation>& observations = (*observations_per_view)[i];
-    const auto seen_through = [&](const Observation& observation)
+    const auto outvoted = [&](const Observation& observation)
     {
-      const Votes votes = castVotes(views, observation.point, observation.normal, observation.axial_sigma_m,
-                                    consistency_sigmas, observation.view);
+      const Eigen::Vector3f ray = (observation.point - views[i].p_session_camera).normalized();
+      const auto reach_m = static_cast<float>(consistency_sigmas) * observation.axial_sigma_m;
+      const SurfacePoint surface{ observation.point, observation.normal, observation.point + reach_m * ray,
+                                  observation.axial_sigma_m };
+      const Votes votes = castVotes(views, surface, consistency_sigmas, i);
       return votes.outvoted();
     };
-    const auto end = std::remove_if(observations.begin(), observations.end(), seen_through);
+    const auto end = std::remove_if(observations.begin(), observations.end(), outvoted);
     removed[i] = static_cast<std::size_t>(observations.end() - end);
     observations.erase(end, observations.end());
   }

@@ -20,9 +20,19 @@ struct Votes
   bool outvoted() const { return 2 * seen_through > same; }
 };
 
-/// Views that look at the point from behind its normal have a say only if they see through it.
-Votes castVotes(const std::vector<View>& views, const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
-                float axial_sigma_m, double consistency_sigmas, int own_view = -1);
+/// A measured surface point, and how far it may be off.
+struct SurfacePoint
+{
+  Eigen::Vector3f point, normal;
+  Eigen::Vector3f farthest;  ///< where it may as well be: consistency_sigmas further along the ray that measured it
+  float axial_sigma_m = 0;
+};
+
+/// Views that look at the point from behind its normal have a say only if they see through it. A view sees through only
+/// if it does so all the way to `farthest`: else noise that moves a point off the object's silhouette would be cut off
+/// on the outside and left on the inside, and the object would shrink.
+Votes castVotes(const std::vector<View>& views, const SurfacePoint& surface, double consistency_sigmas,
+                int own_view = -1);
 
 /// Removes the observations that other views see through, more of them than uphold them; returns how many went.
 std::size_t removeSeenThrough(const std::vector<View>& views, double consistency_sigmas,

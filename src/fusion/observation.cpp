@@ -33,6 +33,19 @@ rgbd::Frame cropToMask(const rgbd::Frame& frame, cv::Rect* roi)
   return crop;
 }
 
+/// Mean depth round every pixel, 0 where there is none. The sigma of a reading must not follow its own noise, or
+/// readings that are too near by chance weigh more than those that are too far.
+cv::Mat smoothed(const cv::Mat& depth_m)
+{
+  constexpr int WINDOW_PX = 9;
+  cv::Mat known = depth_m == depth_m, zero_filled = depth_m.clone(), sum_m, share;
+  cv::patchNaNs(zero_filled, 0);
+  known.convertTo(known, CV_32F, 1 / 255.0);
+  cv::boxFilter(zero_filled, sum_m, CV_32F, { WINDOW_PX, WINDOW_PX });
+  cv::boxFilter(known, share, CV_32F, { WINDOW_PX, WINDOW_PX });
+  return sum_m / share;
+}
+
 }  // namespace
 
 std::vector<Observation> collectObservations(const rgbd::Keyframe& keyframe, int view,
@@ -48,6 +61,7 @@ std::vector<Observation> collectObservations(const rgbd::Keyframe& keyframe, int
   const cv::Mat normals = rgbd::computeNormals(crop);
   const cv::Mat weights = rgbd::observationWeights(crop, normals, rgbd::distanceToEdges_px(edges), options.weight);
 
+  const cv::Mat smooth_depth_m = smoothed(crop.depth_m);
   const Eigen::Isometry3f T_session_camera = keyframe.T_session_camera.cast<float>();
   std::vector<Observation> observations;
   for (int v = 0; v < roi.height; ++v)
@@ -68,11 +82,11 @@ std::vector<Observation> collectObservations(const rgbd::Keyframe& keyframe, int
       observation.normal = T_session_camera.linear() * normal;
       observation.weight = weight;
       observation.view = view;
-      observation.axial_sigma_m = static_cast<float>(rgbd::axialSigma_m(point.z(), theta_rad));
-      const double axial_m = observation.axial_sigma_m * cosine;
-      const double lateral_m =
-          rgbd::lateralSigma_m(point.z(), theta_rad, crop.camera.fx) * std::sqrt(1 - double(cosine) * cosine);
-      observation.sigma_m = static_cast<float>(std::hypot(axial_m, lateral_m));
+      const double z_m = smooth_depth_m.at<float>(v, u);
+      observation.axial_sigma_m = static_cast<float>(rgbd::axialSigma_m(z_m, theta_rad));
+      observation.lateral_sigma_m = static_cast<float>(rgbd::lateralSigma_m(z_m, theta_rad, crop.camera.fx));
+      observation.sigma_m =
+          std::hypot(observation.axial_sigma_m * cosine, observation.lateral_sigma_m * std::sqrt(1 - cosine * cosine));
       observations.push_back(observation);
     }
   }

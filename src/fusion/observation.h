@@ -16,7 +16,8 @@ struct Observation
   float weight = 0;         ///< noise weight of the paper, [0, 1]
   float axial_sigma_m = 0;  ///< along the viewing ray
   float sigma_m = 0;        ///< along the normal: axial and lateral noise together
-  int view = 0;             ///< index of the keyframe
+  float lateral_sigma_m = 0;
+  int view = 0;  ///< index of the keyframe
 
   /// What a weighted mean weighs it by.
   float information() const { return weight / (sigma_m * sigma_m); }

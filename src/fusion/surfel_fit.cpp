@@ -17,6 +17,8 @@ constexpr int FIT_ITERATIONS = 3;
 constexpr float SPACING_RATIO = 0.8f;  ///< least to aimed-at distance of fused points
 /// On all but the height, as a share of the summed weights: it decides only where the observations do not.
 constexpr float RIDGE_RATIO = 0.001f;
+/// Far from the camera a neighbourhood must be as wide, or it holds a handful of pixels.
+constexpr float LATERAL_SIGMAS = 4;
 constexpr int MIN_OBSERVATIONS = 3;
 /// The noise of neighbouring pixels is correlated: about so many hold one independent measurement.
 constexpr float CORRELATED_PIXELS = 6.f;
@@ -53,7 +55,7 @@ std::vector<Observation> cellMeans(const ObservationGrid& grid)
   struct Cluster
   {
     Eigen::Vector3f point = Eigen::Vector3f::Zero(), normal = Eigen::Vector3f::Zero();
-    float information = 0, weight = 0;
+    float information = 0, weight = 0, lateral_sigma_sum_m = 0;
   };
   std::vector<Observation> means;
   std::vector<Cluster> clusters;
@@ -75,6 +77,7 @@ std::vector<Observation> cellMeans(const ObservationGrid& grid)
       cluster->normal += information * observation.normal;
       cluster->information += information;
       cluster->weight += observation.weight;
+      cluster->lateral_sigma_sum_m += observation.weight * observation.lateral_sigma_m;
     }
     for (const Cluster& cluster : clusters)
     {
@@ -83,6 +86,7 @@ std::vector<Observation> cellMeans(const ObservationGrid& grid)
       mean.normal = cluster.normal.normalized();
       mean.weight = cluster.weight;
       mean.sigma_m = std::sqrt(cluster.weight / cluster.information);
+      mean.lateral_sigma_m = cluster.lateral_sigma_sum_m / cluster.weight;
       means.push_back(mean);
     }
   }
@@ -92,7 +96,7 @@ std::vector<Observation> cellMeans(const ObservationGrid& grid)
 bool fitSurfel(const ObservationGrid& grid, const CloudFusionOptions& options, std::vector<char>* views_scratch,
                Surfel* surfel)
 {
-  const auto radius_m = static_cast<float>(options.averaging_radius_m);
+  const float radius_m = surfel->radius_m;
   const auto sigmas = static_cast<float>(options.consistency_sigmas);
   for (int iteration = 0; iteration < FIT_ITERATIONS; ++iteration)
   {
@@ -176,6 +180,8 @@ std::vector<Surfel> fuseSurface(const ObservationGrid& grid, const CloudFusionOp
   {
     seeds[i].point = means[i].point;
     seeds[i].normal = means[i].normal;
+    seeds[i].radius_m =
+        std::max(static_cast<float>(options.averaging_radius_m), LATERAL_SIGMAS * means[i].lateral_sigma_m);
   }
   const ObservationGrid coarse_grid({ means }, static_cast<float>(options.resolution_m));
   seeds = thinOut(fitSurfels(coarse_grid, options, 1, 1, std::move(seeds)), spacing_m);

@@ -13,9 +13,10 @@ namespace object_modelling::fusion
 struct Surfel
 {
   Eigen::Vector3f point = Eigen::Vector3f::Zero(), normal = Eigen::Vector3f::Zero();
-  float weight = 0;   ///< sum of the noise weights that went in
-  float sigma_m = 0;  ///< of the position along the normal
-  int views = 0;      ///< distinct keyframes that went in
+  float radius_m = 0;  ///< that it averages over
+  float weight = 0;    ///< sum of the noise weights that went in
+  float sigma_m = 0;   ///< of the position along the normal
+  int views = 0;       ///< distinct keyframes that went in
 };
 
 /// The mean of each cell's observations, one for each direction that they face, so that the two sides of a thin wall

@@ -27,7 +27,7 @@ struct FusedCloud
 struct CloudFusionOptions
 {
   double resolution_m = 0.002;        ///< spacing of the fused points
-  double averaging_radius_m = 0.006;  ///< a fused point averages over this neighbourhood, its middle most
+  double averaging_radius_m = 0.006;  ///< a fused point averages over this neighbourhood, or a wider one far away
   double min_weight = 0.3;            ///< single observations below are not used
   double consistency_sigmas = 3.0;    ///< contradiction by more than so many sigmas of the better observation
   int min_views = 2;                  ///< fused points seen by fewer keyframes are dropped
