@@ -104,6 +104,36 @@ std::vector<std::size_t> offsetsOf(const pcl::PCLPointCloud2& cloud, const std::
   }
   return offsets;
 }
+pcl::PCLPointCloud2 read(const std::string& path)
+{
+  pcl::PCLPointCloud2 file;
+  try
+  {
+    pcl::PCDReader reader;
+    Eigen::Vector4f origin;
+    Eigen::Quaternionf orientation;
+    int version = 0, data_type = 0;
+    unsigned int data_offset = 0;
+    if (reader.readHeader(path, file, origin, orientation, version, data_type, data_offset) != 0)
+      damaged(path, "it is no PCD file");
+    // PCL reads on after a header without points or fields, and fails badly.
+    if (static_cast<std::size_t>(file.width) * file.height == 0)
+      damaged(path, "it holds no points");
+    offsetsOf(file, path);
+    checkLength(path, file, data_type, data_offset);
+    if (reader.read(path, file) != 0)
+      damaged(path, "it is not a whole PCD file");
+  }
+  catch (const Error&)
+  {
+    throw;
+  }
+  catch (const std::exception& error)  // PCL's own, and whatever a hostile header makes it ask for
+  {
+    damaged(path, error.what());
+  }
+  return file;
+}
 }  // namespace
 
 void writeCloud(const std::string& path, const fusion::FusedCloud& cloud)
@@ -140,28 +170,7 @@ fusion::FusedCloud readCloud(const std::string& path)
 {
   if (!std::filesystem::is_regular_file(path))
     throw Error(StatusCode::NOT_FOUND, "there is no cloud " + path);
-  pcl::PCLPointCloud2 file;
-  try
-  {
-    pcl::PCDReader reader;
-    Eigen::Vector4f origin;
-    Eigen::Quaternionf orientation;
-    int version = 0, data_type = 0;
-    unsigned int data_offset = 0;
-    if (reader.readHeader(path, file, origin, orientation, version, data_type, data_offset) != 0)
-      damaged(path, "it is no PCD file");
-    checkLength(path, file, data_type, data_offset);
-    if (reader.read(path, file) != 0)
-      damaged(path, "it is not a whole PCD file");
-  }
-  catch (const Error&)
-  {
-    throw;
-  }
-  catch (const std::exception& error)  // PCL's own, and whatever a hostile header makes it ask for
-  {
-    damaged(path, error.what());
-  }
+  const pcl::PCLPointCloud2 file = read(path);
   const std::vector<std::size_t> offsets = offsetsOf(file, path);
   const std::size_t count = static_cast<std::size_t>(file.width) * file.height;
   if (file.data.size() != count * file.point_step)

@@ -170,10 +170,10 @@ TEST_F(ObjectDatabaseTest, ReportsProgressAndCancels)
 
 TEST_F(ObjectDatabaseTest, ChecksNameEveryFault)
 {
-  const std::string object = write(makeModel("cereal"));
+  const std::string object = write(makeModel("cereal", 0, 0));
   const auto problemsAfter = [&](const std::function<void()>& spoil)
   {
-    write(makeModel("cereal"));
+    write(makeModel("cereal", 0, 0));
     spoil();
     std::string all;
     for (const std::string& problem : database_.check())
