@@ -145,7 +145,7 @@ private:
     const int min_piece_px = std::max(1, static_cast<int>(segmenter.min_cluster_px * area_ratio / 10));
     const cv::Mat above = pixelsAbove(frame, plane_camera, limits, segmenter.cluster_depth_step_ratio, area);
     const Clusters clusters = clusterSmooth(frame, above, segmenter.cluster_depth_step_ratio, min_piece_px);
-    chooseClusters(keyframe, clusters, &view);
+    chooseClusters(keyframe, plane_camera, clusters, &view);
     const double noise_scale = view.support ? view.support->noise_scale : 1;
     fillLowHoles(frame, plane_camera, noise_scale * segmenter.min_height_m, segmenter.max_height_m, area, &view.mask);
     if (cv::countNonZero(view.mask) < min_piece_px)
@@ -154,31 +154,68 @@ private:
     return view;
   }
 
-  void chooseClusters(const rgbd::Keyframe& keyframe, const Clusters& clusters, View* view) const
+  struct Part
+  {
+    cv::Mat mask;
+    cv::Mat inside;  // the volume
+    int inside_count = 0;
+    double votes = 0;
+    bool candidate = false;
+  };
+
+  /// Those clusters are the object that lie in its volume to a fair share, but for neighbours: clusters that stand on
+  /// the support by themselves and have far fewer votes, since they came into the volume by touching the object in
+  /// a view.
+  void chooseClusters(const rgbd::Keyframe& keyframe, const geometry::Plane& plane_camera, const Clusters& clusters,
+                      View* view) const
   {
     constexpr double MIN_SHARE_OF_OBJECT = 0.3;
-    const cv::Size size = keyframe.frame.depth_m.size();
-    view->mask = cv::Mat::zeros(size, CV_8UC1);
-    view->others = cv::Mat::zeros(size, CV_8UC1);
-    std::vector<cv::Mat> insides;
+    constexpr double NEIGHBOUR_VOTES_RATIO = 0.75;
+    std::vector<Part> parts;
     int inside_total = 0;
-    std::vector<int> inside_counts;
+    double most_votes = 0;
     for (const Cluster& cluster : clusters.clusters)
     {
-      insides.push_back(withinVolume(keyframe, clusters.mask(cluster)));
-      inside_counts.push_back(cv::countNonZero(insides.back()));
-      inside_total += inside_counts.back();
+      Part part;
+      part.mask = clusters.mask(cluster);
+      part.inside = withinVolume(keyframe, part.mask);
+      part.inside_count = cv::countNonZero(part.inside);
+      part.candidate = part.inside_count >= options_.min_cluster_overlap_ratio * cluster.pixel_count;
+      inside_total += part.inside_count;
+      part.votes = part.candidate ? volume_.meanVotes(keyframe, part.inside) : 0;
+      if (part.candidate && cluster.pixel_count >= MIN_SHARE_OF_OBJECT * clusters.clusters.front().pixel_count)
+        most_votes = std::max(most_votes, part.votes);
+      parts.push_back(part);
     }
-    for (std::size_t i = 0; i < clusters.clusters.size(); ++i)
+    view->mask = cv::Mat::zeros(keyframe.frame.depth_m.size(), CV_8UC1);
+    view->others = view->mask.clone();
+    for (const Part& part : parts)
     {
-      const Cluster& cluster = clusters.clusters[i];
-      if (inside_counts[i] >= options_.min_cluster_overlap_ratio * cluster.pixel_count)
-        view->mask |= clusters.mask(cluster);
-      else if (inside_counts[i] >= MIN_SHARE_OF_OBJECT * inside_total)
-        view->mask |= insides[i];  // the object has run together with something larger
+      const bool neighbour = part.candidate && part.votes < NEIGHBOUR_VOTES_RATIO * most_votes &&
+                             standsOn(keyframe.frame, plane_camera, part.mask);
+      if (part.candidate && !neighbour)
+        view->mask |= part.mask;
+      else if (!neighbour && part.inside_count >= MIN_SHARE_OF_OBJECT * inside_total)
+        view->mask |= part.inside;  // the object has run together with something larger
       else
-        view->others |= clusters.mask(cluster);
+        view->others |= part.mask;
     }
+  }
+
+  /// Whether the lowest pixels of a mask are at the support.
+  static bool standsOn(const rgbd::Frame& frame, const geometry::Plane& plane_camera, const cv::Mat& mask)
+  {
+    constexpr double MAX_FOOT_M = 0.015;
+    constexpr double MIN_RATIO = 0.02;
+    int count = 0, low = 0;
+    for (int v = 0; v < mask.rows; ++v)
+      for (int u = 0; u < mask.cols; ++u)
+        if (mask.at<std::uint8_t>(v, u) != 0)
+        {
+          ++count;
+          low += plane_camera.signedDistance_m(frame.point(u, v).cast<double>()) < MAX_FOOT_M;
+        }
+    return low > MIN_RATIO * count;
   }
 
   cv::Mat withinVolume(const rgbd::Keyframe& keyframe, const cv::Mat& mask) const

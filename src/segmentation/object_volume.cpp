@@ -7,6 +7,12 @@
 
 namespace object_modelling::segmentation
 {
+namespace
+{
+/// A view that shows a neighbour apart from the object says more than one in which the two run together.
+constexpr int NEIGHBOUR_VOTES = 2;
+}  // namespace
+
 void ObjectVolume::clear()
 {
   voxels_.clear();
@@ -44,6 +50,27 @@ void ObjectVolume::add(const rgbd::Keyframe& keyframe, const cv::Mat& mask)
   }
 }
 
+double ObjectVolume::meanVotes(const rgbd::Keyframe& keyframe, const cv::Mat& mask) const
+{
+  double votes = 0;
+  int count = 0;
+  for (int v = 0; v < mask.rows; ++v)
+  {
+    const auto* on = mask.ptr<std::uint8_t>(v);
+    for (int u = 0; u < mask.cols; ++u)
+    {
+      if (on[u] == 0)
+        continue;
+      ++count;
+      const auto entry =
+          lookup_.find(key(indexOf(keyframe.T_session_camera * keyframe.frame.point(u, v).cast<double>())));
+      if (entry != lookup_.end())
+        votes += voxels_[entry->second].votes_for - voxels_[entry->second].votes_against;
+    }
+  }
+  return count > 0 ? votes / count : 0;
+}
+
 void ObjectVolume::removeContradicted(const rgbd::Keyframe& keyframe, const cv::Mat& others)
 {
   const rgbd::Frame& frame = keyframe.frame;
@@ -63,7 +90,7 @@ void ObjectVolume::removeContradicted(const rgbd::Keyframe& keyframe, const cv::
     const bool seen_through = behind_m > tolerance_m;
     const bool seen_as_other =
         !others.empty() && others.at<std::uint8_t>(v, u) != 0 && std::abs(behind_m) <= tolerance_m;
-    voxel.votes_against += seen_through || seen_as_other;
+    voxel.votes_against += seen_as_other ? NEIGHBOUR_VOTES : seen_through ? 1 : 0;
   }
 }
 
@@ -119,28 +146,6 @@ cv::Rect ObjectVolume::areaInView(const rgbd::Keyframe& keyframe, double margin_
   const cv::Point corner(static_cast<int>(std::floor(low.x())), static_cast<int>(std::floor(low.y())));
   const cv::Point opposite(static_cast<int>(std::ceil(high.x())) + 1, static_cast<int>(std::ceil(high.y())) + 1);
   return cv::Rect(corner, opposite) & image;
-}
-
-int ObjectVolume::visibleVoxels(const rgbd::Keyframe& keyframe) const
-{
-  const rgbd::Frame& frame = keyframe.frame;
-  const Eigen::Isometry3d T_camera_session = keyframe.T_session_camera.inverse();
-  int visible = 0;
-  for (const Voxel& voxel : voxels_)
-  {
-    if (!voxel.occupied())
-      continue;
-    const Eigen::Vector3d p_camera = T_camera_session * centreOf(voxel);
-    if (p_camera.z() <= 0)
-      continue;
-    const Eigen::Vector2d pixel = frame.camera.project(p_camera);
-    if (!frame.camera.contains(pixel))
-      continue;
-    const float z =
-        frame.depthAt_m(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
-    visible += std::abs(z - p_camera.z()) <= 2 * voxel_size_m_;
-  }
-  return visible;
 }
 
 std::uint64_t ObjectVolume::key(const Eigen::Vector3i& index)

@@ -25,7 +25,10 @@ public:
 
   /// One vote for every voxel that the mask's pixels fall into; makes the voxels that are new.
   void add(const rgbd::Keyframe& keyframe, const cv::Mat& mask);
-  /// One vote against every voxel that this view sees through, or sees as part of `others` (CV_8UC1, may be empty).
+  /// Mean balance of the votes under a mask's pixels: how sure the views are that this is the object.
+  double meanVotes(const rgbd::Keyframe& keyframe, const cv::Mat& mask) const;
+  /// One vote against every voxel that this view sees through, or sees as part of `others` (CV_8UC1, may be empty), but
+  /// for those that it voted for itself: to be called after add() of the same view.
   void removeContradicted(const rgbd::Keyframe& keyframe, const cv::Mat& others);
 
   /// Whether the point lies in an occupied voxel or next to one.
@@ -34,8 +37,6 @@ public:
   Eigen::Vector3d centroid() const;  ///< of the occupied voxels
   /// Bounding rectangle of the occupied voxels in the image, grown by `margin_m`; empty if out of view.
   cv::Rect areaInView(const rgbd::Keyframe& keyframe, double margin_m) const;
-  /// Of the occupied voxels in view, with the depth image agreeing: how many.
-  int visibleVoxels(const rgbd::Keyframe& keyframe) const;
 
 private:
   struct Voxel

@@ -15,6 +15,7 @@ struct Choice
   int keyframe = -1;
   int hypothesis = -1;
   double score = 0;
+  double volume_m3 = 0;  ///< of its box
   Eigen::Vector3d centroid_session = Eigen::Vector3d::Zero();
 };
 
@@ -35,6 +36,7 @@ base::Result<Choice> chooseStart(const std::vector<rgbd::Keyframe>& keyframes, c
 {
   constexpr std::size_t MAX_VIEWS = 24;
   constexpr double SAME_PLACE_M = 0.06;
+  constexpr double MAX_VOLUME_RATIO = 1.6;  // to that of the smaller ones
   std::vector<Choice> choices;
   base::Status reason;
   for (const int i : sample(keyframes, MAX_VIEWS))
@@ -57,16 +59,25 @@ base::Result<Choice> chooseStart(const std::vector<rgbd::Keyframe>& keyframes, c
     }
     const Hypothesis& hypothesis = segmentation.hypotheses[chosen.value];
     choices.push_back({ i, chosen.value, clearness(hypothesis, keyframe.frame.camera),
-                        keyframe.T_session_camera * hypothesis.centroid_camera });
+                        hypothesis.box_camera.size_m.prod(), keyframe.T_session_camera * hypothesis.centroid_camera });
   }
   if (choices.empty())
     return { { base::StatusCode::NO_RESULT,
                "the object was found in none of the keyframes; the last reason: " + reason.message },
              {} };
+  // Where the object has run together with a neighbour the box is larger: such views are no place to start.
+  std::vector<double> volumes_m3;
+  for (const Choice& choice : choices)
+    volumes_m3.push_back(choice.volume_m3);
+  std::sort(volumes_m3.begin(), volumes_m3.end());
+  const double max_volume_m3 = MAX_VOLUME_RATIO * volumes_m3[volumes_m3.size() / 5];
+
   Choice best;
   double best_support = -1;
   for (const Choice& choice : choices)
   {
+    if (choice.volume_m3 > max_volume_m3)
+      continue;
     double support = choice.score;
     for (const Choice& other : choices)
       if ((other.centroid_session - choice.centroid_session).norm() < SAME_PLACE_M)
@@ -187,6 +198,7 @@ SessionMasks segmentSession(const std::vector<rgbd::Keyframe>& keyframes,
     return result;
   }
 
+  constexpr int RECOUNTS = 2;  // what the first takes out of the volume changes how the second sees its neighbours
   const SceneSegmenter segmenter(options.segmenter);
   const base::Result<Choice> start = chooseStart(keyframes, segmenter, seed_point_session);
   if (!start.ok())
@@ -201,7 +213,8 @@ SessionMasks segmentSession(const std::vector<rgbd::Keyframe>& keyframes,
     return result;
   for (const int i : nearestFirst(keyframes, start.value.keyframe))
     propagator.propagate(keyframes[i]);
-  propagator.recount(keyframes);
+  for (int round = 0; round < RECOUNTS; ++round)
+    propagator.recount(keyframes);
   for (std::size_t i = 0; i < keyframes.size(); ++i)
     result.masks[i] = hasMask(keyframes[i]) ? keyframes[i].frame.object_mask : propagator.mask(keyframes[i]).value;
   result.support_plane_session = propagator.supportPlane();
