@@ -63,6 +63,8 @@ TEST(ObjectMaskPropagator, WorksWhereTheObjectIsCutOffByTheImage)
   const std::vector<rgbd::Keyframe> keyframes = orbit(twoBoxes(), 18);
   ObjectMaskPropagator propagator;
   ASSERT_TRUE(startAt(&propagator, withoutMask(keyframes[0])).ok());
+  for (const rgbd::Keyframe& keyframe : keyframes)
+    propagator.propagate(withoutMask(keyframe));
   rgbd::Keyframe beside = test_support::renderKeyframes(twoBoxes(), test_support::vgaCamera(),
                                                         { test_support::lookAt({ -0.1, -0.7, 0.5 }, { -0.47, 0, 0 }) },
                                                         kinectNoise())
