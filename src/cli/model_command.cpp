@@ -8,7 +8,7 @@
 #include "command.h"
 #include "object_modelling/pipeline/build_object.h"
 #include "object_modelling/pipeline/session_jobs.h"
-#include "object_modelling/ros_bridge/open_recording.h"
+#include "object_modelling/ros_bridge/recording.h"
 #include "report_text.h"
 #include "temporary_store.h"
 

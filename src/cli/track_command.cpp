@@ -4,7 +4,7 @@
 #include "object_modelling/pipeline/record_session.h"
 #include "object_modelling/pipeline/session_jobs.h"
 #include "object_modelling/refinement/trajectory_correction.h"
-#include "object_modelling/ros_bridge/open_recording.h"
+#include "object_modelling/ros_bridge/recording.h"
 #include "report_text.h"
 #include "temporary_store.h"
 
@@ -48,8 +48,16 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
   output.json["refinement"] = toJson(refined);
   if (!refined.status.ok())
     throw base::Error(refined.status.code, refined.status.message);
-  std::vector<source::StampedPose> corrected = correctedTrajectory(report.trajectory, before, refined);
-  source::writeTrajectory(arguments.refined_trajectory, corrected);
+  std::vector<double> stamps_s;
+  std::vector<Eigen::Isometry3d> poses_before;
+  for (const rgbd::Keyframe& keyframe : before)
+  {
+    stamps_s.push_back(keyframe.frame.stamp_s);
+    poses_before.push_back(keyframe.T_session_camera);
+  }
+  source::writeTrajectory(
+      arguments.refined_trajectory,
+      refinement::correctTrajectory(report.trajectory, stamps_s, poses_before, refined.T_session_camera));
   return output;
 }
 }  // namespace

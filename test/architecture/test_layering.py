@@ -1,0 +1,76 @@
+"""Includes go one way: each library sees only those below it, and no ROS below ros_bridge."""
+
+import os
+import unittest
+
+import source_tree
+
+ROS_HEADERS = ("ros/", "tf2", "sensor_msgs/", "geometry_msgs/", "std_msgs/", "nav_msgs/", "visualization_msgs/",
+               "actionlib", "cv_bridge/", "rosbag/", "pcl_conversions/", "message_filters/", "interactive_markers/")
+
+
+class LayeringTest(unittest.TestCase):
+    def test_every_library_folder_is_in_the_list(self):
+        known = set(source_tree.library_order()) | set(source_tree.ABOVE_LIBRARIES)
+        headers = set(os.listdir(os.path.join(source_tree.ROOT, "include", "object_modelling")))
+        self.assertLessEqual(headers, known)
+
+    def test_libraries_include_only_lower_ones(self):
+        order = source_tree.library_order()
+        seen = 0
+        for path in source_tree.cpp_files("include", "src"):
+            library = source_tree.library_of(path)
+            if library not in order:
+                continue
+            for include in source_tree.includes(path):
+                parts = include.split("/")
+                if parts[0] != "object_modelling" or len(parts) < 3:
+                    continue
+                seen += 1
+                self.assertIn(parts[1], order, f"{path} includes {include}, which is above the libraries")
+                self.assertLessEqual(order.index(parts[1]), order.index(library),
+                                     f"{path} includes {include}: {parts[1]} is above {library}")
+        self.assertGreater(seen, 50, "the scan found next to no includes: is it looking in the right place?")
+
+    def test_no_ros_in_the_libraries(self):
+        order = source_tree.library_order()
+        for path in source_tree.cpp_files("include", "src"):
+            if source_tree.library_of(path) not in order:
+                continue
+            for include in source_tree.includes(path):
+                self.assertFalse(include.startswith(ROS_HEADERS), f"{path} includes {include}")
+                generated = include.startswith("object_modelling/") and include.count("/") == 1
+                self.assertFalse(generated, f"{path} includes the message {include}")
+            with open(path) as text:
+                self.assertNotRegex(text.read(), r"\bros::", f"{path} uses roscpp")
+
+    def test_readme_names_the_layers_in_order(self):
+        with open(os.path.join(source_tree.ROOT, "docs", "architecture.md")) as text:
+            rows = [line.split("`")[1] for line in text if line.startswith("| `")]
+        order = source_tree.library_order()
+        self.assertEqual([row for row in rows if row in order], order)
+
+
+class LibraryHabitsTest(unittest.TestCase):
+    def test_no_exit_and_no_streams_in_libraries(self):
+        order = source_tree.library_order()
+        for path in source_tree.cpp_files("include", "src"):
+            if source_tree.library_of(path) not in order:
+                continue
+            with open(path) as text:
+                source = text.read()
+            for banned in (r"\bexit\s*\(", r"\babort\s*\(", r"std::cout", r"std::cerr", r"\bsystem\s*\("):
+                self.assertNotRegex(source, banned, f"{path}")
+
+    def test_files_stay_small(self):
+        too_long = {}
+        for path in source_tree.cpp_files("include", "src", "test"):
+            with open(path) as text:
+                lines = sum(1 for _ in text)
+            if lines > 400:
+                too_long[os.path.relpath(path, source_tree.ROOT)] = lines
+        self.assertEqual(too_long, {})
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,63 @@
+# What demo.sh, test.sh and run.sh share: install what is missing, build, enter the build's environment. Sourced by bash.
+set -euo pipefail
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+build_dir="${OBJECT_MODELLING_BUILD_DIR:-$root/build}"
+build_type="${OBJECT_MODELLING_BUILD_TYPE:-Release}"
+cmake_arguments=()
+
+fail() { printf '%s: %s\n' "$(basename "$0")" "$*" >&2; exit 1; }
+
+missing_packages() {
+  local wanted
+  mapfile -t wanted < <(awk '!/^#/ && NF {print $1}' "$root/tools/packages.txt")
+  # Lists what is installed; unknown names go to stderr.
+  dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null | awk '$1 == "installed" {print $2}' |
+    sort > "$1.installed" || true
+  printf '%s\n' "${wanted[@]}" | sort -u | comm -23 - "$1.installed"
+}
+
+install_missing() {
+  command -v apt-get >/dev/null && command -v dpkg-query >/dev/null ||
+    { echo "No apt here: install what package.xml lists with rosdep, and libsoci-dev." >&2; return; }
+  local list missing as_root=()
+  list="$(mktemp)"
+  missing="$(missing_packages "$list")"
+  rm -f "$list" "$list.installed"
+  [ -n "$missing" ] || return 0
+  if [ -d /opt/ros ]; then
+    echo "ROS is in /opt/ros, so this is not Debian's ROS: install what package.xml lists with rosdep, and libsoci-dev." >&2
+    return 0
+  fi
+  [ "$(id -u)" = 0 ] || { command -v sudo >/dev/null && as_root=(sudo) ||
+    fail "these packages are missing, and there is no sudo to install them with:" $missing; }
+  echo "Installing" $(wc -w <<<"$missing") "packages:" $missing
+  "${as_root[@]}" apt-get update -qq || fail "apt-get update failed: is the network up?"
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null ||
+    fail "installing failed; see above, then run again"
+}
+
+build() {
+  mkdir -p "$build_dir"
+  local launcher=() log="$build_dir/configure.log"
+  command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  if [ ! -f "$build_dir/build.ninja" ] || [ "${#cmake_arguments[@]}" -gt 0 ]; then
+    echo "Configuring in $build_dir"
+    # An own PATH for the build: a pyenv or venv python3 knows nothing of ROS.
+    PATH="/usr/bin:$PATH" cmake -S "$root" -B "$build_dir" -G Ninja -DCMAKE_BUILD_TYPE="$build_type" \
+      -DOBJECT_MODELLING_WARNINGS_AS_ERRORS=ON "${launcher[@]}" "${cmake_arguments[@]}" >"$log" 2>&1 ||
+      { tail -n 30 "$log" >&2; fail "configuring failed; the whole log is $log"; }
+  fi
+  # Ninja's own progress line; one line where nothing is to do.
+  PATH="/usr/bin:$PATH" cmake --build "$build_dir" ${1:+--target "$1"} | { grep -v 'no work to do' || true; }
+}
+
+enter() {
+  # catkin's setup files use unset variables.
+  set +u
+  . "$build_dir/devel/setup.sh"
+  set -u
+  export PATH="/usr/bin:$build_dir/devel/lib/object_modelling:$PATH"
+  # Works without name resolution; whoever runs on several machines sets ROS_IP or ROS_HOSTNAME.
+  [ -n "${ROS_IP:-}${ROS_HOSTNAME:-}" ] || export ROS_HOSTNAME=localhost
+  export ROSCONSOLE_STDOUT_LINE_BUFFERED=1
+}
