@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "object_modelling/base/status.h"
-#include "temp_folder.h"
+#include "support/temp_dir.h"
 
 namespace object_modelling::surface
 {
@@ -61,13 +61,13 @@ void writeText(const std::string& path, const std::string& text)
 class MeshFiles : public testing::TestWithParam<std::string>
 {
 protected:
-  TempFolder folder_;
+  test_support::TempDir folder_;
 };
 
 TEST_P(MeshFiles, RoundTripKeepsGeometryNormalsAndColours)
 {
   const geometry::TriangleMesh mesh = strip();
-  const std::string path = folder_.file("strip" + GetParam());
+  const std::string path = folder_.path("strip" + GetParam());
   writeMesh(path, mesh);
   const geometry::TriangleMesh read = readMesh(path);
   ASSERT_EQ(read.vertices.size(), mesh.vertices.size());
@@ -84,7 +84,7 @@ TEST_P(MeshFiles, RoundTripKeepsGeometryNormalsAndColours)
 
 TEST_P(MeshFiles, RoundTripWithoutNormalsAndColours)
 {
-  const std::string path = folder_.file("strip" + GetParam());
+  const std::string path = folder_.path("strip" + GetParam());
   writeMesh(path, strip(false, false));
   const geometry::TriangleMesh read = readMesh(path);
   EXPECT_EQ(read.vertices.size(), 256u);
@@ -95,17 +95,17 @@ TEST_P(MeshFiles, RoundTripWithoutNormalsAndColours)
 
 TEST_P(MeshFiles, SameMeshGivesTheSameBytesAndLeavesNothingElse)
 {
-  writeMesh(folder_.file("a" + GetParam()), strip());
-  writeMesh(folder_.file("b" + GetParam()), strip());
-  EXPECT_EQ(contentOf(folder_.file("a" + GetParam())), contentOf(folder_.file("b" + GetParam())));
-  EXPECT_FALSE(std::filesystem::exists(folder_.file("a" + GetParam() + ".part")));
+  writeMesh(folder_.path("a" + GetParam()), strip());
+  writeMesh(folder_.path("b" + GetParam()), strip());
+  EXPECT_EQ(contentOf(folder_.path("a" + GetParam())), contentOf(folder_.path("b" + GetParam())));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("a" + GetParam() + ".part")));
 }
 
 TEST_P(MeshFiles, HostileNamesAreOrdinaryNames)
 {
   for (const std::string name : { "with space", "quote'\"", "%s%n", "Ωmega", "$(touch x)", "-rf", "new\nline", "a.b" })
   {
-    const std::string path = folder_.file(name + GetParam());
+    const std::string path = folder_.path(name + GetParam());
     writeMesh(path, strip());
     EXPECT_EQ(readMesh(path).triangles.size(), 254u) << name;
   }
@@ -113,7 +113,7 @@ TEST_P(MeshFiles, HostileNamesAreOrdinaryNames)
 
 TEST_P(MeshFiles, ReplacesAnOlderFile)
 {
-  const std::string path = folder_.file("mesh" + GetParam());
+  const std::string path = folder_.path("mesh" + GetParam());
   writeText(path, "old");
   writeMesh(path, strip());
   EXPECT_EQ(readMesh(path).vertices.size(), 256u);
@@ -121,11 +121,11 @@ TEST_P(MeshFiles, ReplacesAnOlderFile)
 
 TEST_P(MeshFiles, UnwritablePlacesAreNamed)
 {
-  writeText(folder_.file("file"), "");
-  std::filesystem::create_directory(folder_.file("folder" + GetParam()));
+  writeText(folder_.path("file"), "");
+  std::filesystem::create_directory(folder_.path("folder" + GetParam()));
   for (const std::string place : { "missing/mesh", "file/mesh", "folder" })
   {
-    const std::string path = folder_.file(place + GetParam());
+    const std::string path = folder_.path(place + GetParam());
     EXPECT_EQ(codeOf([&] { writeMesh(path, strip()); }), base::StatusCode::STORAGE) << path;
   }
 }
@@ -134,7 +134,7 @@ TEST_P(MeshFiles, FullDiskIsAnErrorAndKeepsTheOldFile)
 {
   if (!std::filesystem::exists("/dev/full"))
     GTEST_SKIP();
-  const std::string path = folder_.file("mesh" + GetParam());
+  const std::string path = folder_.path("mesh" + GetParam());
   writeText(path, "old");
   std::filesystem::create_symlink("/dev/full", path + ".part");
   EXPECT_EQ(codeOf([&] { writeMesh(path, strip()); }), base::StatusCode::STORAGE);
@@ -143,7 +143,7 @@ TEST_P(MeshFiles, FullDiskIsAnErrorAndKeepsTheOldFile)
 
 TEST_P(MeshFiles, RefusesMeshesThatAreNone)
 {
-  const std::string path = folder_.file("mesh" + GetParam());
+  const std::string path = folder_.path("mesh" + GetParam());
   geometry::TriangleMesh out_of_range = strip(), not_finite = strip(), few_colors = strip();
   out_of_range.triangles[3][1] = 256;
   not_finite.vertices[7].x() = std::numeric_limits<float>::quiet_NaN();
@@ -155,7 +155,7 @@ TEST_P(MeshFiles, RefusesMeshesThatAreNone)
 
 TEST_P(MeshFiles, MissingAndDamagedFiles)
 {
-  const std::string path = folder_.file("mesh" + GetParam());
+  const std::string path = folder_.path("mesh" + GetParam());
   EXPECT_EQ(codeOf([&] { readMesh(path); }), base::StatusCode::NOT_FOUND);
   writeMesh(path, strip());
   const std::string whole = contentOf(path);
@@ -177,27 +177,27 @@ INSTANTIATE_TEST_SUITE_P(Formats, MeshFiles, testing::Values(".ply", ".obj", ".P
 
 TEST(MeshFile, UnknownExtensionsAreRefused)
 {
-  const TempFolder folder;
+  const test_support::TempDir folder;
   for (const std::string name : { "mesh", "mesh.stl", "mesh.ply.txt", ".ply", "" })
   {
-    EXPECT_EQ(codeOf([&] { writeMesh(folder.file(name), strip()); }), base::StatusCode::INVALID_ARGUMENT) << name;
-    EXPECT_EQ(codeOf([&] { readMesh(folder.file(name)); }), base::StatusCode::INVALID_ARGUMENT) << name;
+    EXPECT_EQ(codeOf([&] { writeMesh(folder.path(name), strip()); }), base::StatusCode::INVALID_ARGUMENT) << name;
+    EXPECT_EQ(codeOf([&] { readMesh(folder.path(name)); }), base::StatusCode::INVALID_ARGUMENT) << name;
   }
 }
 
 TEST(MeshFile, ReadsPolygonsAndTexturedFilesOfOthers)
 {
-  const TempFolder folder;
+  const test_support::TempDir folder;
   writeText(
-      folder.file("quad.ply"),
+      folder.path("quad.ply"),
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
       "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n");
-  writeText(folder.file("quad.obj"),
+  writeText(folder.path("quad.obj"),
             "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
             "f 1/1 2/2 3/3\nf 1/4 3/3 4/4\n");
   for (const std::string name : { "quad.ply", "quad.obj" })
   {
-    const geometry::TriangleMesh mesh = readMesh(folder.file(name));
+    const geometry::TriangleMesh mesh = readMesh(folder.path(name));
     EXPECT_EQ(mesh.vertices.size(), 4u) << name;
     EXPECT_EQ(mesh.triangles.size(), 2u) << name;
   }

@@ -1,0 +1,165 @@
+#include "object_modelling/surface/surface_reconstruction.h"
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <gtest/gtest.h>
+
+namespace object_modelling::surface
+{
+namespace
+{
+constexpr float RADIUS_M = 0.05f;
+
+/// Points spread evenly over a sphere (spiral), without those below `floor_m`.
+fusion::FusedCloud sphere(float floor_m = -1, const Eigen::Vector3f& center = Eigen::Vector3f::Zero())
+{
+  fusion::FusedCloud cloud;
+  constexpr int COUNT = 8000;
+  for (int i = 0; i < COUNT; ++i)
+  {
+    const double z = 1 - 2 * (i + 0.5) / COUNT, r = std::sqrt(1 - z * z), angle = i * 2.399963229728653;
+    const Eigen::Vector3f n = Eigen::Vector3d(r * std::cos(angle), r * std::sin(angle), z).cast<float>();
+    if (n.z() * RADIUS_M < floor_m)
+      continue;
+    cloud.points.push_back(center + RADIUS_M * n);
+    cloud.normals.push_back(n);
+    cloud.colors.push_back(n.z() > 0 ? Eigen::Matrix<std::uint8_t, 3, 1>(250, 0, 0)
+                                     : Eigen::Matrix<std::uint8_t, 3, 1>(0, 0, 250));
+    cloud.weights.push_back(1);
+    cloud.sigmas_m.push_back(1e-4f);
+  }
+  return cloud;
+}
+
+SurfaceResult reconstruct(const fusion::FusedCloud& cloud, const SurfaceOptions& options = {})
+{
+  base::JobControl control;
+  return reconstructSurface(cloud, options, control);
+}
+
+/// Edges by how many triangles use them.
+std::map<std::pair<std::uint32_t, std::uint32_t>, int> edgesOf(const geometry::TriangleMesh& mesh)
+{
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  for (const auto& t : mesh.triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+      ++edges[std::minmax(t[k], t[(k + 1) % 3])];
+  }
+  return edges;
+}
+
+int boundaryEdges(const geometry::TriangleMesh& mesh)
+{
+  int count = 0;
+  for (const auto& [edge, uses] : edgesOf(mesh))
+  {
+    EXPECT_LE(uses, 2) << "not a manifold";
+    count += uses == 1;
+  }
+  return count;
+}
+
+TEST(SurfaceReconstruction, WholeSphereIsClosedAndExact)
+{
+  const Eigen::Vector3f center(0.3f, -0.2f, 1);
+  const SurfaceResult result = reconstruct(sphere(-1, center));
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  const geometry::TriangleMesh& mesh = result.mesh;
+  EXPECT_EQ(boundaryEdges(mesh), 0);
+  EXPECT_NEAR(geometry::surfaceArea_m2(mesh), 4 * M_PI * RADIUS_M * RADIUS_M, 3e-4);
+  ASSERT_EQ(mesh.normals.size(), mesh.vertices.size());
+  ASSERT_EQ(mesh.colors.size(), mesh.vertices.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+  {
+    const Eigen::Vector3f d = mesh.vertices[i] - center;
+    EXPECT_NEAR(d.norm(), RADIUS_M, 3e-4f);
+    EXPECT_GT(mesh.normals[i].dot(d.normalized()), 0.9f) << "outward";
+    if (std::abs(d.z()) > 0.005f)
+    {
+      EXPECT_EQ(mesh.colors[i][d.z() > 0 ? 0 : 2], 250);
+    }
+  }
+}
+
+TEST(SurfaceReconstruction, StaysOpenWhereNothingWasSeen)
+{
+  const float floor_m = -0.03f;
+  const SurfaceResult result = reconstruct(sphere(floor_m));
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_GT(boundaryEdges(result.mesh), 50);
+  for (const Eigen::Vector3f& vertex : result.mesh.vertices)
+  {
+    EXPECT_GT(vertex.z(), floor_m - 0.004f);
+    EXPECT_NEAR(vertex.norm(), RADIUS_M, 1e-3f);
+  }
+}
+
+TEST(SurfaceReconstruction, SmallGapsAreClosed)
+{
+  fusion::FusedCloud cloud = sphere(), with_gap;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    if ((cloud.points[i] - Eigen::Vector3f(0, 0, RADIUS_M)).norm() < 0.004f)
+      continue;
+    with_gap.points.push_back(cloud.points[i]);
+    with_gap.normals.push_back(cloud.normals[i]);
+  }
+  const SurfaceResult result = reconstruct(with_gap);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_EQ(boundaryEdges(result.mesh), 0);
+  EXPECT_TRUE(result.mesh.colors.empty()) << "no colours in, none out";
+}
+
+TEST(SurfaceReconstruction, StrayPointsMakeNoPiece)
+{
+  fusion::FusedCloud cloud = sphere();
+  for (int i = 0; i < 5; ++i)
+  {
+    cloud.points.push_back({ 0.12f + 0.001f * i, 0, 0 });
+    cloud.normals.push_back(Eigen::Vector3f::UnitX());
+    cloud.colors.push_back({ 0, 0, 0 });
+  }
+  const SurfaceResult result = reconstruct(cloud);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  for (const Eigen::Vector3f& vertex : result.mesh.vertices)
+    EXPECT_LT(vertex.norm(), RADIUS_M + 0.002f);
+}
+
+TEST(SurfaceReconstruction, SameCloudGivesTheSameMesh)
+{
+  const SurfaceResult a = reconstruct(sphere(0)), b = reconstruct(sphere(0));
+  EXPECT_EQ(a.mesh.vertices, b.mesh.vertices);
+  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
+  EXPECT_EQ(a.mesh.colors, b.mesh.colors);
+}
+
+TEST(SurfaceReconstruction, TooFewPointsAreNoSurface)
+{
+  fusion::FusedCloud few;
+  few.points.assign(10, Eigen::Vector3f::Zero());
+  few.normals.assign(10, Eigen::Vector3f::UnitZ());
+  for (const fusion::FusedCloud& cloud : { fusion::FusedCloud(), few })
+  {
+    const SurfaceResult result = reconstruct(cloud);
+    EXPECT_EQ(result.status.code, base::StatusCode::NO_RESULT);
+    EXPECT_NE(result.status.message.find("points"), std::string::npos) << result.status.message;
+  }
+}
+
+TEST(SurfaceReconstruction, StopsWhenCancelledAndRefusesBadOptions)
+{
+  base::JobControl control;
+  control.cancel();
+  EXPECT_THROW(reconstructSurface(sphere(), {}, control), base::Cancelled);
+  SurfaceOptions options;
+  options.resolution_m = std::numeric_limits<double>::quiet_NaN();
+  options.max_support_distance_m = 0;
+  EXPECT_EQ(options.violations().size(), 2u);
+  EXPECT_THROW(reconstruct(sphere(), options), base::Error);
+}
+
+}  // namespace
+}  // namespace object_modelling::surface
