@@ -10,11 +10,14 @@ namespace
 /// Images held back while their partner has not come; more means that there is none (a gap in one topic).
 constexpr std::size_t MAX_WAITING = 60;
 
-ros::Duration distance(const ros::Time& a, const ros::Time& b) { return a > b ? a - b : b - a; }
+ros::Duration distance(const ros::Time& a, const ros::Time& b)
+{
+  return a > b ? a - b : b - a;
+}
 }  // namespace
 
 BagMessages::BagMessages(rosbag::Bag& bag, const BagTopics& topics, double max_stamp_difference_s)
-  : topics_(topics), max_difference_(max_stamp_difference_s)
+    : topics_(topics), max_difference_(max_stamp_difference_s)
 {
   std::vector<std::string> used = { topics.color, topics.depth, topics.camera_info };
   if (!topics.object_mask.empty())
@@ -63,8 +66,10 @@ bool BagMessages::decided() const
 
 sensor_msgs::Image::ConstPtr BagMessages::takeDepth(const ros::Time& stamp)
 {
-  const auto nearest = std::min_element(depths_.begin(), depths_.end(), [&](const auto& a, const auto& b)
-                                        { return distance(a->header.stamp, stamp) < distance(b->header.stamp, stamp); });
+  const auto nearest = std::min_element(depths_.begin(), depths_.end(),
+                                        [&](const auto& a, const auto& b) {
+                                          return distance(a->header.stamp, stamp) < distance(b->header.stamp, stamp);
+                                        });
   if (nearest == depths_.end() || distance((*nearest)->header.stamp, stamp) > max_difference_)
     return {};
   const sensor_msgs::Image::ConstPtr depth = *nearest;

@@ -30,13 +30,12 @@ auto readingBag(const std::string& path, Body&& body)
   }
   catch (const rosbag::BagException& error)
   {
-    throw base::Error(base::StatusCode::BAD_INPUT,
-                      path + ": the bag is damaged or truncated (" + error.what() + "); rosbag fix or a new copy may help");
+    throw base::Error(base::StatusCode::BAD_INPUT, path + ": the bag is damaged or truncated (" + error.what() +
+                                                       "); rosbag fix or a new copy may help");
   }
   catch (const ros::serialization::StreamOverrunException& error)
   {
-    throw base::Error(base::StatusCode::BAD_INPUT,
-                      path + ": a message of the bag is cut short (" + error.what() + ")");
+    throw base::Error(base::StatusCode::BAD_INPUT, path + ": a message of the bag is cut short (" + error.what() + ")");
   }
 }
 

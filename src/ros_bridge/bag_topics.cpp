@@ -114,8 +114,9 @@ private:
     if (usual.size() == 1)
       return usual.front();
     throw base::Error(base::StatusCode::BAD_INPUT,
-                      path_ + (fitting.empty() ? ": has no " + what + " topic; it holds" :
-                                                 ": has several " + what + " topics, name the one to use; it holds") +
+                      path_ +
+                          (fitting.empty() ? ": has no " + what + " topic; it holds"
+                                           : ": has several " + what + " topics, name the one to use; it holds") +
                           listed(contents_));
   }
 

@@ -24,9 +24,10 @@ std::vector<double> distortionOf(const sensor_msgs::CameraInfo& info)
     return {};
   if (info.distortion_model == models::PLUMB_BOB || info.distortion_model == models::RATIONAL_POLYNOMIAL)
     return { info.D.begin(), info.D.end() };
-  throw base::Error(base::StatusCode::BAD_INPUT,
-                    name(info) + ": distortion model \"" + info.distortion_model +
-                        "\" is not supported; use plumb_bob or rational_polynomial, or rectify the images (image_proc)");
+  throw base::Error(
+      base::StatusCode::BAD_INPUT,
+      name(info) + ": distortion model \"" + info.distortion_model +
+          "\" is not supported; use plumb_bob or rational_polynomial, or rectify the images (image_proc)");
 }
 
 /// The matrices tell of the full image; what is delivered is a region of it, binned.

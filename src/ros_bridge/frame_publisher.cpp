@@ -12,11 +12,11 @@ constexpr int QUEUE_SIZE = 10;
 }
 
 FramePublisher::FramePublisher(ros::NodeHandle& node, const std::string& frame_id)
-  : frame_id_(frame_id)
-  , color_(node.advertise<sensor_msgs::Image>(names::COLOR, QUEUE_SIZE))
-  , depth_(node.advertise<sensor_msgs::Image>(names::DEPTH, QUEUE_SIZE))
-  , info_(node.advertise<sensor_msgs::CameraInfo>(names::CAMERA_INFO, QUEUE_SIZE))
-  , mask_(node.advertise<sensor_msgs::Image>(names::OBJECT_MASK, QUEUE_SIZE))
+    : frame_id_(frame_id),
+      color_(node.advertise<sensor_msgs::Image>(names::COLOR, QUEUE_SIZE)),
+      depth_(node.advertise<sensor_msgs::Image>(names::DEPTH, QUEUE_SIZE)),
+      info_(node.advertise<sensor_msgs::CameraInfo>(names::CAMERA_INFO, QUEUE_SIZE)),
+      mask_(node.advertise<sensor_msgs::Image>(names::OBJECT_MASK, QUEUE_SIZE))
 {
 }
 

@@ -15,9 +15,9 @@ namespace encodings = sensor_msgs::image_encodings;
 
 [[noreturn]] void refuse(const sensor_msgs::Image& message, const std::string& reason)
 {
-  throw base::Error(base::StatusCode::BAD_INPUT,
-                    "image of " + std::to_string(message.width) + " x " + std::to_string(message.height) +
-                        " with encoding \"" + message.encoding + "\" " + reason);
+  throw base::Error(base::StatusCode::BAD_INPUT, "image of " + std::to_string(message.width) + " x " +
+                                                     std::to_string(message.height) + " with encoding \"" +
+                                                     message.encoding + "\" " + reason);
 }
 
 int bytesPerPixel(const sensor_msgs::Image& message)
@@ -128,8 +128,7 @@ sensor_msgs::Image toMessage(const cv::Mat& image, const std_msgs::Header& heade
       message.encoding = encodings::TYPE_32FC1;
       break;
     default:
-      throw base::Error(base::StatusCode::INTERNAL,
-                        "no image message for OpenCV type " + std::to_string(image.type()));
+      throw base::Error(base::StatusCode::INTERNAL, "no image message for OpenCV type " + std::to_string(image.type()));
   }
   if (!image.empty())
     cv_bridge::CvImage(header, message.encoding, image).toImageMsg(message);

@@ -17,10 +17,9 @@ constexpr double MILLIMETRE_M = 0.001;
 void requireSize(const cv::Mat& image, const geometry::PinholeCamera& camera, const std::string& what)
 {
   if (image.cols != camera.width || image.rows != camera.height)
-    throw base::Error(base::StatusCode::BAD_INPUT, "keyframe: " + what + " is " + std::to_string(image.cols) + " x " +
-                                                       std::to_string(image.rows) + ", camera_info says " +
-                                                       std::to_string(camera.width) + " x " +
-                                                       std::to_string(camera.height));
+    throw base::Error(base::StatusCode::BAD_INPUT,
+                      "keyframe: " + what + " is " + std::to_string(image.cols) + " x " + std::to_string(image.rows) +
+                          ", camera_info says " + std::to_string(camera.width) + " x " + std::to_string(camera.height));
 }
 
 rgbd::Frame frameFromMessage(const object_modelling::Keyframe& message)

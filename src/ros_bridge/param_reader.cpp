@@ -65,7 +65,7 @@ std::string joined(const std::vector<std::string>& words)
 }  // namespace
 
 ParamReader::ParamReader(const ros::NodeHandle& private_node)
-  : ParamReader(private_node.getNamespace(), privateParameters(private_node))
+    : ParamReader(private_node.getNamespace(), privateParameters(private_node))
 {
 }
 

@@ -36,7 +36,7 @@ std::vector<std::string> RemoteSessionStoreOptions::violations() const
 }
 
 RemoteSessionStore::RemoteSessionStore(const ros::NodeHandle& node, const RemoteSessionStoreOptions& options)
-  : node_(node), options_(base::checked(options))
+    : node_(node), options_(base::checked(options))
 {
 }
 
@@ -50,8 +50,9 @@ void RemoteSessionStore::call(const char* name, Service& service)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::string resolved = node_.resolveName(options_.node + "/" + name);
-  const auto unreachable = [&](const std::string& what) -> base::Error
-  { return { base::StatusCode::TIMEOUT, "service " + resolved + " " + what }; };
+  const auto unreachable = [&](const std::string& what) -> base::Error {
+    return { base::StatusCode::TIMEOUT, "service " + resolved + " " + what };
+  };
 
   std::ostringstream waited;
   waited << "is not there after " << options_.connect_timeout_s << " s; is the keyframe store running?";

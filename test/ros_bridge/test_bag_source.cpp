@@ -57,7 +57,10 @@ protected:
   test_support::TempDir folder_;
 };
 
-bool names(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
+bool names(const std::string& text, const std::string& what)
+{
+  return text.find(what) != std::string::npos;
+}
 
 TEST_F(BagSourceTest, FindsTopicsAndPairsFrames)
 {

@@ -40,7 +40,8 @@ rgbd::Keyframe someKeyframe()
   keyframe.T_session_camera = somePose();
   keyframe.covariance = geometry::Matrix6d::Identity() * 1e-4;
   keyframe.covariance(0, 5) = keyframe.covariance(5, 0) = 3e-5;
-  keyframe.observations = { { std::numeric_limits<std::uint64_t>::max(), { 1.25f, 2.5f }, 0.75f }, { 2, { 3, 4 }, NAN } };
+  keyframe.observations = { { std::numeric_limits<std::uint64_t>::max(), { 1.25f, 2.5f }, 0.75f },
+                            { 2, { 3, 4 }, NAN } };
   return keyframe;
 }
 

@@ -53,7 +53,10 @@ std::string refusal(const XmlRpc::XmlRpcValue& parameters)
   return "nothing was refused";
 }
 
-bool names(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
+bool names(const std::string& text, const std::string& what)
+{
+  return text.find(what) != std::string::npos;
+}
 
 TEST(ParamReader, DefaultsStayWithoutParameters)
 {

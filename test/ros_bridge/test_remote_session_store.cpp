@@ -1,6 +1,9 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
-#include <opencv2/imgproc.hpp>
+#include <object_modelling/ListSessions.h>
 #include <ros/ros.h>
+#include <opencv2/imgproc.hpp>
 
 #include "object_modelling/ros_bridge/remote_session_store.h"
 #include "support/temp_dir.h"
@@ -129,6 +132,46 @@ TEST_F(RemoteSessionStoreTest, AStoreThatIsNotThereIsATimeout)
   EXPECT_FALSE(nowhere.available());
   EXPECT_EQ(base::StatusCode::TIMEOUT, codeOf([&] { nowhere.listSessions(); }));
 }
+
+/// A store of its own that answers after a while; needs callbacks on another thread.
+class SlowStore
+{
+public:
+  SlowStore(ros::NodeHandle& node, double delay_s)
+      : server_(node.advertiseService("slow_store/list_sessions",
+                                      boost::function<bool(ListSessions::Request&, ListSessions::Response&)>(
+                                          [delay_s](ListSessions::Request&, ListSessions::Response&)
+                                          {
+                                            ros::WallDuration(delay_s).sleep();
+                                            return true;
+                                          })))
+  {
+  }
+
+private:
+  ros::ServiceServer server_;
+};
+
+TEST_F(RemoteSessionStoreTest, ASlowStoreIsATimeout)
+{
+  const SlowStore slow(node_, 2);
+  RemoteSessionStore remote(node_, { "slow_store", 5, 0.3 });
+  const ros::WallTime begin = ros::WallTime::now();
+  EXPECT_EQ(base::StatusCode::TIMEOUT, codeOf([&] { remote.listSessions(); }));
+  EXPECT_LT((ros::WallTime::now() - begin).toSec(), 1.8);
+}
+
+TEST_F(RemoteSessionStoreTest, ARestartedStoreIsFoundAgain)
+{
+  RemoteSessionStore remote(node_, { "slow_store", 0.5, 5 });
+  {
+    const SlowStore first(node_, 0);
+    EXPECT_EQ(base::StatusCode::OK, codeOf([&] { remote.listSessions(); }));
+  }
+  EXPECT_EQ(base::StatusCode::TIMEOUT, codeOf([&] { remote.listSessions(); }));
+  const SlowStore second(node_, 0);
+  EXPECT_EQ(base::StatusCode::OK, codeOf([&] { remote.listSessions(); }));
+}
 }  // namespace
 }  // namespace object_modelling::ros_bridge
 
@@ -137,5 +180,7 @@ int main(int argc, char** argv)
   testing::InitGoogleTest(&argc, argv);
   ros::init(argc, argv, "test_remote_session_store");
   const ros::NodeHandle node;
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
   return RUN_ALL_TESTS();
 }

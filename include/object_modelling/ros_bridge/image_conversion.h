@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include <opencv2/core.hpp>
 #include <sensor_msgs/Image.h>
+#include <opencv2/core.hpp>
 
 namespace object_modelling::ros_bridge
 {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <Eigen/Geometry>
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/PoseWithCovariance.h>
 #include <geometry_msgs/Transform.h>
 #include <object_modelling/Plane.h>
 #include <object_modelling/PoseUpdate.h>
+#include <Eigen/Geometry>
 
 #include "object_modelling/geometry/plane.h"
 #include "object_modelling/geometry/transform.h"

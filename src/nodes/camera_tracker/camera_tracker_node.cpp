@@ -18,13 +18,13 @@ constexpr double WARNING_PERIOD_S = 5;
 
 CameraTrackerNode::CameraTrackerNode(ros::NodeHandle& node, ros::NodeHandle& private_node,
                                      const CameraTrackerNodeOptions& options)
-  : options_(options)
-  , store_(node, options.store)
-  , record_(store_, options.stored_timeout_s)
-  , recording_(options, options.use_store ? &record_ : nullptr)
-  , publisher_(private_node, options)
-  , pairer_(options.frame.max_stamp_difference_s, options.tracker.reference == tracking::Reference::OBJECT)
-  , watch_(options.input_timeout_s, ros::WallTime::now())
+    : options_(options),
+      store_(node, options.store),
+      record_(store_, options.stored_timeout_s),
+      recording_(options, options.use_store ? &record_ : nullptr),
+      publisher_(private_node, options),
+      pairer_(options.frame.max_stamp_difference_s, options.tracker.reference == tracking::Reference::OBJECT),
+      watch_(options.input_timeout_s, ros::WallTime::now())
 {
   subscribe<sensor_msgs::Image>(node, names::COLOR, &FramePairer::addColor);
   subscribe<sensor_msgs::Image>(node, names::DEPTH, &FramePairer::addDepth);
@@ -34,8 +34,8 @@ CameraTrackerNode::CameraTrackerNode(ros::NodeHandle& node, ros::NodeHandle& pri
   serve<StartTracking>(private_node, names::START, &CameraTrackerNode::start);
   serve<StopTracking>(private_node, names::STOP, &CameraTrackerNode::stop);
   serve<ResetTracking>(private_node, names::RESET, &CameraTrackerNode::reset);
-  watch_timer_ = node.createWallTimer(ros::WallDuration(WATCH_PERIOD_S),
-                                      [this](const ros::WallTimerEvent&) { watchInputs(); });
+  watch_timer_ =
+      node.createWallTimer(ros::WallDuration(WATCH_PERIOD_S), [this](const ros::WallTimerEvent&) { watchInputs(); });
   worker_ = std::thread([this] { trackFrames(); });
 }
 
@@ -46,9 +46,9 @@ CameraTrackerNode::~CameraTrackerNode()
 }
 
 template <typename Message>
-void CameraTrackerNode::subscribe(ros::NodeHandle& node, const char* topic,
-                                  std::optional<FrameMessages> (FramePairer::*add)(
-                                      const boost::shared_ptr<const Message>&))
+void CameraTrackerNode::subscribe(
+    ros::NodeHandle& node, const char* topic,
+    std::optional<FrameMessages> (FramePairer::*add)(const boost::shared_ptr<const Message>&))
 {
   const std::size_t watched = watch_.add(node.resolveName(topic));
   const boost::function<void(const boost::shared_ptr<const Message>&)> take =
@@ -75,9 +75,8 @@ void CameraTrackerNode::serve(ros::NodeHandle& node, const char* name,
 {
   using Callback = boost::function<bool(typename Service::Request&, typename Service::Response&)>;
   servers_.push_back(node.advertiseService(
-      name, Callback(
-                [this, handler](typename Service::Request& request, typename Service::Response& response)
-                { return ros_bridge::answer(response, [&] { (this->*handler)(request, response); }); })));
+      name, Callback([this, handler](typename Service::Request& request, typename Service::Response& response)
+                     { return ros_bridge::answer(response, [&] { (this->*handler)(request, response); }); })));
 }
 
 void CameraTrackerNode::start(const StartTracking::Request& request, StartTracking::Response& response)

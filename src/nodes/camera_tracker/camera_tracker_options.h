@@ -26,8 +26,8 @@ struct CameraTrackerNodeOptions
   double stored_timeout_s = 20;  ///< how long ~stop waits for the store to have all keyframes
   std::string session_frame_id = "session";
   TfDirection tf_direction = TfDirection::SESSION_BELOW_CAMERA;
-  double input_timeout_s = 3;       ///< a topic that is silent for longer is reported in ~state
-  bool require_registered = true;   ///< refuse depth whose frame_id is not that of colour
+  double input_timeout_s = 3;      ///< a topic that is silent for longer is reported in ~state
+  bool require_registered = true;  ///< refuse depth whose frame_id is not that of colour
   std::vector<std::string> violations() const;
 };
 

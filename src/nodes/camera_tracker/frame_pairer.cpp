@@ -19,14 +19,14 @@ double difference_s(const sensor_msgs::Image::ConstPtr& a, const sensor_msgs::Im
 
 void dropUpTo(const ros::Time& stamp, std::deque<sensor_msgs::Image::ConstPtr>* images)
 {
-  images->erase(std::remove_if(images->begin(), images->end(),
-                               [&](const auto& image) { return image->header.stamp <= stamp; }),
-                images->end());
+  images->erase(
+      std::remove_if(images->begin(), images->end(), [&](const auto& image) { return image->header.stamp <= stamp; }),
+      images->end());
 }
 }  // namespace
 
 FramePairer::FramePairer(double max_stamp_difference_s, bool with_masks)
-  : max_stamp_difference_s_(max_stamp_difference_s), with_masks_(with_masks)
+    : max_stamp_difference_s_(max_stamp_difference_s), with_masks_(with_masks)
 {
 }
 
@@ -67,9 +67,9 @@ void FramePairer::pair(const sensor_msgs::Image::ConstPtr& message, bool is_colo
 {
   Images& own = is_color ? colors_ : depths_;
   Images& others = is_color ? depths_ : colors_;
-  const auto partner =
-      std::min_element(others.begin(), others.end(), [&](const auto& a, const auto& b)
-                       { return difference_s(a, message) < difference_s(b, message); });
+  const auto partner = std::min_element(others.begin(), others.end(),
+                                        [&](const auto& a, const auto& b)
+                                        { return difference_s(a, message) < difference_s(b, message); });
   // The rounding of stamps in seconds is below a microsecond.
   if (partner == others.end() || difference_s(*partner, message) > max_stamp_difference_s_ + 1e-6)
   {
@@ -95,8 +95,8 @@ void FramePairer::pair(const sensor_msgs::Image::ConstPtr& message, bool is_colo
 
 sensor_msgs::Image::ConstPtr FramePairer::maskOf(const FrameMessages& frame) const
 {
-  const auto found = std::find_if(masks_.begin(), masks_.end(), [&](const auto& mask)
-                                  { return mask->header.stamp == frame.color->header.stamp; });
+  const auto found = std::find_if(masks_.begin(), masks_.end(),
+                                  [&](const auto& mask) { return mask->header.stamp == frame.color->header.stamp; });
   return found == masks_.end() ? sensor_msgs::Image::ConstPtr() : *found;
 }
 

@@ -4,7 +4,9 @@
 
 namespace object_modelling::nodes
 {
-InputWatch::InputWatch(double timeout_s, const ros::WallTime& started) : timeout_(timeout_s), last_frame_(started) {}
+InputWatch::InputWatch(double timeout_s, const ros::WallTime& started) : timeout_(timeout_s), last_frame_(started)
+{
+}
 
 std::size_t InputWatch::add(const std::string& topic)
 {

@@ -43,7 +43,7 @@ void describe(const tracking::TrackingResult& result, TrackingState* state)
 }  // namespace
 
 Recording::Recording(const CameraTrackerNodeOptions& options, SessionRecord* record)
-  : options_(options), record_(record), builder_(options.frame), tracker_(options.tracker)
+    : options_(options), record_(record), builder_(options.frame), tracker_(options.tracker)
 {
 }
 

@@ -55,7 +55,7 @@ private:
   rgbd::FrameBuilder builder_;
   tracking::CameraTracker tracker_;
   keyframes::Session session_;
-  bool created_ = false;      ///< the session is in the store, or need not be
+  bool created_ = false;  ///< the session is in the store, or need not be
   int sent_keyframes_ = 0;
   object_modelling::TrackingState state_;  ///< running counts; what a frame says is filled in a copy
 };

@@ -11,7 +11,7 @@ constexpr std::chrono::milliseconds POLL_PERIOD(50);
 }
 
 SessionRecord::SessionRecord(keyframes::SessionStore& store, double stored_timeout_s)
-  : store_(store), stored_timeout_s_(stored_timeout_s)
+    : store_(store), stored_timeout_s_(stored_timeout_s)
 {
 }
 
@@ -33,9 +33,9 @@ bool SessionRecord::has(const std::string& session_id)
 void SessionRecord::requireFree(const std::string& session_id)
 {
   if (has(session_id))
-    throw base::Error(base::StatusCode::FAILED_PRECONDITION,
-                      "session '" + session_id +
-                          "' is in the store already; choose another id, or set resume to continue it");
+    throw base::Error(
+        base::StatusCode::FAILED_PRECONDITION,
+        "session '" + session_id + "' is in the store already; choose another id, or set resume to continue it");
 }
 
 std::string SessionRecord::freeId(const std::string& session_id)
@@ -70,10 +70,10 @@ void SessionRecord::finish(const std::string& session_id, int sent_keyframe_coun
   session.closed = true;
   store_.updateSession(session);
   if (session.keyframe_count < sent_keyframe_count)
-    throw base::Error(base::StatusCode::STORAGE,
-                      "the keyframe store has " + std::to_string(session.keyframe_count) + " of the " +
-                          std::to_string(sent_keyframe_count) + " keyframes of session '" + session_id +
-                          "'; its ~state and log say why");
+    throw base::Error(base::StatusCode::STORAGE, "the keyframe store has " + std::to_string(session.keyframe_count) +
+                                                     " of the " + std::to_string(sent_keyframe_count) +
+                                                     " keyframes of session '" + session_id +
+                                                     "'; its ~state and log say why");
 }
 
 }  // namespace object_modelling::nodes

@@ -22,12 +22,12 @@ constexpr int KEYFRAME_QUEUE_SIZE = 200;
 }  // namespace
 
 TrackingPublisher::TrackingPublisher(ros::NodeHandle& private_node, const CameraTrackerNodeOptions& options)
-  : session_frame_id_(options.session_frame_id)
-  , tf_direction_(options.tf_direction)
-  , state_(private_node.advertise<TrackingState>(names::STATE, QUEUE_SIZE, true))
-  , pose_(private_node.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", QUEUE_SIZE))
-  , keyframe_(private_node.advertise<object_modelling::Keyframe>(names::KEYFRAME, KEYFRAME_QUEUE_SIZE))
-  , debug_image_(private_node.advertise<sensor_msgs::Image>("debug_image", 1))
+    : session_frame_id_(options.session_frame_id),
+      tf_direction_(options.tf_direction),
+      state_(private_node.advertise<TrackingState>(names::STATE, QUEUE_SIZE, true)),
+      pose_(private_node.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", QUEUE_SIZE)),
+      keyframe_(private_node.advertise<object_modelling::Keyframe>(names::KEYFRAME, KEYFRAME_QUEUE_SIZE)),
+      debug_image_(private_node.advertise<sensor_msgs::Image>("debug_image", 1))
 {
 }
 

@@ -18,17 +18,17 @@ constexpr double WARNING_PERIOD_S = 5;
 }  // namespace
 
 KeyframeStore::KeyframeStore(ros::NodeHandle& node, ros::NodeHandle& private_node, const KeyframeStoreOptions& options)
-  : options_(options)
-  , connection_(storeConnection(options.store_path))
-  , preview_(options.preview)
-  , preview_publisher_(private_node, options.session_frame_id)
-  , store_(connection_, *this)
-  , state_(private_node.advertise<StoreState>(names::STATE, 1, true))
-  , keyframes_(node.subscribe(names::KEYFRAME, QUEUE_SIZE, &KeyframeStore::takeKeyframe, this))
-  , masks_(node.subscribe(names::MASK, QUEUE_SIZE, &KeyframeStore::takeMask, this))
-  , preview_timer_(node.createWallTimer(ros::WallDuration(1 / options.preview_rate_hz),
-                                        [this](const ros::WallTimerEvent&) { publishPreview(); }))
-  , services_(private_node, store_)
+    : options_(options),
+      connection_(storeConnection(options.store_path)),
+      preview_(options.preview),
+      preview_publisher_(private_node, options.session_frame_id),
+      store_(connection_, *this),
+      state_(private_node.advertise<StoreState>(names::STATE, 1, true)),
+      keyframes_(node.subscribe(names::KEYFRAME, QUEUE_SIZE, &KeyframeStore::takeKeyframe, this)),
+      masks_(node.subscribe(names::MASK, QUEUE_SIZE, &KeyframeStore::takeMask, this)),
+      preview_timer_(node.createWallTimer(ros::WallDuration(1 / options.preview_rate_hz),
+                                          [this](const ros::WallTimerEvent&) { publishPreview(); })),
+      services_(private_node, store_)
 {
   const base::Status status = ros_bridge::guarded([this] { store_.listSessions(); });
   if (!status.ok())
@@ -38,8 +38,8 @@ KeyframeStore::KeyframeStore(ros::NodeHandle& node, ros::NodeHandle& private_nod
 
 void KeyframeStore::takeKeyframe(const object_modelling::Keyframe::ConstPtr& message)
 {
-  const base::Status status = ros_bridge::guarded(
-      [&] { store_.addKeyframe(message->session_id, ros_bridge::fromMessage(*message)); });
+  const base::Status status =
+      ros_bridge::guarded([&] { store_.addKeyframe(message->session_id, ros_bridge::fromMessage(*message)); });
   if (status.ok())
     return;
   ++refused_count_;
@@ -50,8 +50,8 @@ void KeyframeStore::takeKeyframe(const object_modelling::Keyframe::ConstPtr& mes
 
 void KeyframeStore::takeMask(const object_modelling::ObjectMask::ConstPtr& message)
 {
-  const base::Status status = ros_bridge::guarded(
-      [&] { store_.updateMasks(message->session_id, { ros_bridge::fromMessage(*message) }); });
+  const base::Status status =
+      ros_bridge::guarded([&] { store_.updateMasks(message->session_id, { ros_bridge::fromMessage(*message) }); });
   if (status.ok())
     return;
   ++refused_count_;
@@ -99,7 +99,10 @@ void KeyframeStore::onDeleted(const std::string& session_id)
   preview_changed_ = true;
 }
 
-void KeyframeStore::onWrite(const base::Status& status) { publishState(status); }
+void KeyframeStore::onWrite(const base::Status& status)
+{
+  publishState(status);
+}
 
 void KeyframeStore::publishState(const base::Status& status)
 {

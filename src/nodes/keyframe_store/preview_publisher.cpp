@@ -32,7 +32,8 @@ void addFrustum(const SessionPreview::View& view, visualization_msgs::Marker* li
   const double right = view.camera.width - 0.5, bottom = view.camera.height - 0.5;
   const std::array<Eigen::Vector2d, 4> corners = { Eigen::Vector2d(-0.5, -0.5), Eigen::Vector2d(right, -0.5),
                                                    Eigen::Vector2d(right, bottom), Eigen::Vector2d(-0.5, bottom) };
-  const auto corner = [&](std::size_t i) {
+  const auto corner = [&](std::size_t i)
+  {
     const Eigen::Vector2d& pixel = corners[i % corners.size()];
     return toPoint(view.T_session_camera * view.camera.unproject(pixel.x(), pixel.y(), FRUSTUM_DEPTH_M));
   };
@@ -78,10 +79,10 @@ nav_msgs::Path pathOf(const std::vector<SessionPreview::View>& views, const std_
 }  // namespace
 
 PreviewPublisher::PreviewPublisher(ros::NodeHandle& private_node, const std::string& session_frame_id)
-  : session_frame_id_(session_frame_id)
-  , cloud_(private_node.advertise<sensor_msgs::PointCloud2>("cloud", 1, true))
-  , path_(private_node.advertise<nav_msgs::Path>("path", 1, true))
-  , frusta_(private_node.advertise<visualization_msgs::MarkerArray>("frusta", 1, true))
+    : session_frame_id_(session_frame_id),
+      cloud_(private_node.advertise<sensor_msgs::PointCloud2>("cloud", 1, true)),
+      path_(private_node.advertise<nav_msgs::Path>("path", 1, true)),
+      frusta_(private_node.advertise<visualization_msgs::MarkerArray>("frusta", 1, true))
 {
 }
 

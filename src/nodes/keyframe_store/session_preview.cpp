@@ -40,7 +40,9 @@ std::vector<std::string> SessionPreviewOptions::violations() const
   return check.violations();
 }
 
-SessionPreview::SessionPreview(const SessionPreviewOptions& options) : options_(base::checked(options)) {}
+SessionPreview::SessionPreview(const SessionPreviewOptions& options) : options_(base::checked(options))
+{
+}
 
 void SessionPreview::show(const std::string& session_id)
 {
@@ -71,8 +73,11 @@ void SessionPreview::add(const rgbd::Keyframe& keyframe)
       if (!(frame.depthAt_m(u, v) <= options_.max_depth_m))
         continue;
       const cv::Vec3b& bgr = frame.color_bgr.at<cv::Vec3b>(v, u);
-      entry.samples.push_back({ frame.point(u, v), { bgr[2], bgr[1], bgr[0] }, static_cast<std::int16_t>(u),
-                                static_cast<std::int16_t>(v), false });
+      entry.samples.push_back({ frame.point(u, v),
+                                { bgr[2], bgr[1], bgr[0] },
+                                static_cast<std::int16_t>(u),
+                                static_cast<std::int16_t>(v),
+                                false });
     }
   }
   applyMask(frame.object_mask, &entry);

@@ -14,9 +14,9 @@ namespace object_modelling::nodes
 struct SessionPreviewOptions
 {
   double voxel_size_m = 0.004;
-  double max_depth_m = 2.0;     ///< farther points are left out
-  int max_points = 500000;      ///< of the cloud
-  int max_keyframes = 500;      ///< later ones show in the path only
+  double max_depth_m = 2.0;  ///< farther points are left out
+  int max_points = 500000;   ///< of the cloud
+  int max_keyframes = 500;   ///< later ones show in the path only
   std::vector<std::string> violations() const;
 };
 

@@ -16,9 +16,8 @@ void StoreServices::serve(ros::NodeHandle& node, const char* name,
 {
   using Callback = boost::function<bool(typename Service::Request&, typename Service::Response&)>;
   servers_.push_back(node.advertiseService(
-      name, Callback(
-                [this, handler](typename Service::Request& request, typename Service::Response& response)
-                { return ros_bridge::answer(response, [&] { (this->*handler)(request, response); }); })));
+      name, Callback([this, handler](typename Service::Request& request, typename Service::Response& response)
+                     { return ros_bridge::answer(response, [&] { (this->*handler)(request, response); }); })));
 }
 
 StoreServices::StoreServices(ros::NodeHandle& private_node, keyframes::SessionStore& store) : store_(store)

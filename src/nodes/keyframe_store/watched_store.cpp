@@ -7,7 +7,7 @@
 namespace object_modelling::nodes
 {
 WatchedStore::WatchedStore(const std::string& connection, StoreWatcher& watcher)
-  : connection_(connection), watcher_(watcher)
+    : connection_(connection), watcher_(watcher)
 {
 }
 
@@ -36,9 +36,15 @@ void WatchedStore::createSession(const keyframes::Session& session)
   write([&](keyframes::SessionStore& store) { store.createSession(session); });
 }
 
-std::vector<keyframes::Session> WatchedStore::listSessions() { return opened().listSessions(); }
+std::vector<keyframes::Session> WatchedStore::listSessions()
+{
+  return opened().listSessions();
+}
 
-keyframes::Session WatchedStore::session(const std::string& session_id) { return opened().session(session_id); }
+keyframes::Session WatchedStore::session(const std::string& session_id)
+{
+  return opened().session(session_id);
+}
 
 void WatchedStore::updateSession(const keyframes::Session& session)
 {
@@ -47,15 +53,20 @@ void WatchedStore::updateSession(const keyframes::Session& session)
 
 void WatchedStore::deleteSession(const std::string& session_id)
 {
-  write([&](keyframes::SessionStore& store) { store.deleteSession(session_id); }, [&] { watcher_.onDeleted(session_id); });
+  write([&](keyframes::SessionStore& store) { store.deleteSession(session_id); },
+        [&] { watcher_.onDeleted(session_id); });
 }
 
 void WatchedStore::addKeyframe(const std::string& session_id, const rgbd::Keyframe& keyframe)
 {
-  write([&](keyframes::SessionStore& store) { store.addKeyframe(session_id, keyframe); }, [&] { watcher_.onKeyframe(session_id, keyframe); });
+  write([&](keyframes::SessionStore& store) { store.addKeyframe(session_id, keyframe); },
+        [&] { watcher_.onKeyframe(session_id, keyframe); });
 }
 
-std::vector<int> WatchedStore::keyframeIds(const std::string& session_id) { return opened().keyframeIds(session_id); }
+std::vector<int> WatchedStore::keyframeIds(const std::string& session_id)
+{
+  return opened().keyframeIds(session_id);
+}
 
 rgbd::Keyframe WatchedStore::keyframe(const std::string& session_id, int keyframe_id)
 {
@@ -64,12 +75,14 @@ rgbd::Keyframe WatchedStore::keyframe(const std::string& session_id, int keyfram
 
 void WatchedStore::updatePoses(const std::string& session_id, const std::vector<keyframes::PoseUpdate>& updates)
 {
-  write([&](keyframes::SessionStore& store) { store.updatePoses(session_id, updates); }, [&] { watcher_.onPoses(session_id, updates); });
+  write([&](keyframes::SessionStore& store) { store.updatePoses(session_id, updates); },
+        [&] { watcher_.onPoses(session_id, updates); });
 }
 
 void WatchedStore::updateMasks(const std::string& session_id, const std::vector<keyframes::MaskUpdate>& updates)
 {
-  write([&](keyframes::SessionStore& store) { store.updateMasks(session_id, updates); }, [&] { watcher_.onMasks(session_id, updates); });
+  write([&](keyframes::SessionStore& store) { store.updateMasks(session_id, updates); },
+        [&] { watcher_.onMasks(session_id, updates); });
 }
 
 void WatchedStore::exportSession(const std::string& session_id, const std::string& path)

@@ -13,7 +13,7 @@ constexpr std::chrono::milliseconds SHUTDOWN_POLL(100);
 }  // namespace
 
 LosslessGate::LosslessGate(ros::NodeHandle& node, const std::string& state_topic)
-  : subscriber_(node.subscribe(state_topic, QUEUE_SIZE, &LosslessGate::take, this))
+    : subscriber_(node.subscribe(state_topic, QUEUE_SIZE, &LosslessGate::take, this))
 {
 }
 

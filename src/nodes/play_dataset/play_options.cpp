@@ -10,7 +10,8 @@ constexpr int USAGE_ERROR = 2;
 
 constexpr char DESCRIPTION[] =
     "Publishes a recording (a TUM-style folder or a ROS bag) as a camera driver would: rgb/image_rect_color,\n"
-    "depth_registered/image_rect, rgb/camera_info and, if it has masks, object_mask, all with the recording's own stamps.\n"
+    "depth_registered/image_rect, rgb/camera_info and, if it has masks, object_mask, all with the recording's own "
+    "stamps.\n"
     "Distorted images are rectified first. Names are relative: play_dataset FOLDER __ns:=camera";
 constexpr char FOOTER[] =
     "Exit codes: 0 played to the end (or ended by Ctrl-C), 1 the recording cannot be played or nobody answers, 2 wrong "

@@ -9,10 +9,10 @@ namespace object_modelling::nodes
 struct PlayOptions
 {
   std::string recording;
-  double rate_ratio = 1;    ///< of the speed at which it was recorded
-  bool lossless = false;    ///< next frame when the tracker has answered for the one before
+  double rate_ratio = 1;  ///< of the speed at which it was recorded
+  bool lossless = false;  ///< next frame when the tracker has answered for the one before
   bool loop = false;
-  double wait_s = 10;       ///< how long to wait for listeners before the first frame
+  double wait_s = 10;            ///< how long to wait for listeners before the first frame
   double answer_timeout_s = 10;  ///< lossless: how long the tracker may take for one frame
   std::string tracker_state = "camera_tracker/state";
   ros_bridge::RecordingOptions source;

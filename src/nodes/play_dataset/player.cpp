@@ -27,10 +27,10 @@ rgbd::FrameBuilderOptions passThrough(const PlayOptions& options)
 }  // namespace
 
 Player::Player(ros::NodeHandle& node, const PlayOptions& options)
-  : options_(options)
-  , source_(ros_bridge::openRecording(options.recording, options.source))
-  , builder_(passThrough(options))
-  , publisher_(node, source_->frameId())
+    : options_(options),
+      source_(ros_bridge::openRecording(options.recording, options.source)),
+      builder_(passThrough(options)),
+      publisher_(node, source_->frameId())
 {
   if (options.lossless)
     gate_ = std::make_unique<LosslessGate>(node, options.tracker_state);
@@ -47,8 +47,8 @@ void Player::waitForListeners()
   std::ostringstream waited;
   waited << " after " << options_.wait_s << " s; is the camera tracker running and remapped?";
   if (gate_)
-    throw base::Error(base::StatusCode::TIMEOUT, "--lossless: nobody takes the images or publishes " + gate_->topic() +
-                                                     waited.str());
+    throw base::Error(base::StatusCode::TIMEOUT,
+                      "--lossless: nobody takes the images or publishes " + gate_->topic() + waited.str());
   ROS_WARN("nobody takes the images%s Playing all the same.", waited.str().c_str());
 }
 

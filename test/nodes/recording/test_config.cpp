@@ -56,8 +56,14 @@ void expectDefaults(const std::string& node)
   EXPECT_EQ(expected, shipped);
 }
 
-TEST(RecordingConfig, CameraTracker) { expectDefaults<CameraTrackerNodeOptions>("camera_tracker"); }
-TEST(RecordingConfig, KeyframeStore) { expectDefaults<KeyframeStoreOptions>("keyframe_store"); }
+TEST(RecordingConfig, CameraTracker)
+{
+  expectDefaults<CameraTrackerNodeOptions>("camera_tracker");
+}
+TEST(RecordingConfig, KeyframeStore)
+{
+  expectDefaults<KeyframeStoreOptions>("keyframe_store");
+}
 
 TEST(RecordingConfig, StoreConnection)
 {

@@ -14,7 +14,10 @@ sensor_msgs::Image::ConstPtr imageAt(double stamp_s)
   return image;
 }
 
-sensor_msgs::CameraInfo::ConstPtr info() { return sensor_msgs::CameraInfo::ConstPtr(new sensor_msgs::CameraInfo); }
+sensor_msgs::CameraInfo::ConstPtr info()
+{
+  return sensor_msgs::CameraInfo::ConstPtr(new sensor_msgs::CameraInfo);
+}
 
 TEST(FramePairer, GivesAFrameAsSoonAsItIsComplete)
 {

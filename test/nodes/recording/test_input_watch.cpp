@@ -6,7 +6,10 @@ namespace object_modelling::nodes
 {
 namespace
 {
-bool names(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
+bool names(const std::string& text, const std::string& what)
+{
+  return text.find(what) != std::string::npos;
+}
 
 TEST(InputWatch, NamesTheSilentTopics)
 {
