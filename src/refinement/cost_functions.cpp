@@ -11,10 +11,8 @@ namespace
 constexpr double MIN_DEPTH_M = 1e-3;
 constexpr double BEHIND_SIGMAS = 1e3;
 
-template <int ROWS>
-using MotionJacobian = Eigen::Map<Eigen::Matrix<double, ROWS, 6, Eigen::RowMajor>>;
-template <int ROWS>
-using PointJacobian = Eigen::Map<Eigen::Matrix<double, ROWS, 3, Eigen::RowMajor>>;
+using MotionJacobian = Eigen::Map<Eigen::Matrix<double, 2, 6, Eigen::RowMajor>>;
+using PointJacobian = Eigen::Map<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>>;
 
 }  // namespace
 
@@ -45,9 +43,9 @@ bool ReprojectionCost::Evaluate(const double* const* parameters, double* residua
   {
     residuals[0] = residuals[1] = BEHIND_SIGMAS;
     if (derive && jacobians[0] != nullptr)
-      MotionJacobian<2>{ jacobians[0] }.setZero();
+      MotionJacobian{ jacobians[0] }.setZero();
     if (derive && jacobians[1] != nullptr)
-      PointJacobian<2>{ jacobians[1] }.setZero();
+      PointJacobian{ jacobians[1] }.setZero();
     return true;
   }
   residuals[0] = (camera_->fx * p.x() / p.z() + camera_->cx - pixel_.x()) / sigma_px_;
@@ -59,9 +57,9 @@ bool ReprojectionCost::Evaluate(const double* const* parameters, double* residua
       -camera_->fy * p.y() / (p.z() * p.z());
   by_camera_point /= sigma_px_;
   if (jacobians[0] != nullptr)
-    MotionJacobian<2>{ jacobians[0] }.noalias() = by_camera_point * by_motion;
+    MotionJacobian{ jacobians[0] }.noalias() = by_camera_point * by_motion;
   if (jacobians[1] != nullptr)
-    PointJacobian<2>{ jacobians[1] }.noalias() = by_camera_point * by_point;
+    PointJacobian{ jacobians[1] }.noalias() = by_camera_point * by_point;
   return true;
 }
 
@@ -73,12 +71,13 @@ bool DepthCost::Evaluate(const double* const* parameters, double* residuals, dou
   const Eigen::Vector3d p =
       camera_->transform(parameters[0], parameters[1], derive ? &by_motion : nullptr, derive ? &by_point : nullptr);
   residuals[0] = (p.z() - depth_m_) / sigma_m_;
+  residuals[1] = 0;
   if (!derive)
     return true;
   if (jacobians[0] != nullptr)
-    MotionJacobian<1>{ jacobians[0] } = by_motion.row(2) / sigma_m_;
+    MotionJacobian{ jacobians[0] } << by_motion.row(2) / sigma_m_, Eigen::Matrix<double, 1, 6>::Zero();
   if (jacobians[1] != nullptr)
-    PointJacobian<1>{ jacobians[1] } = by_point.row(2) / sigma_m_;
+    PointJacobian{ jacobians[1] } << by_point.row(2) / sigma_m_, Eigen::RowVector3d::Zero();
   return true;
 }
 

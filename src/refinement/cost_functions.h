@@ -43,8 +43,10 @@ private:
   double sigma_px_;
 };
 
-/// Depth of a landmark minus its observation, in sigmas. Blocks as above.
-class DepthCost : public ceres::SizedCostFunction<1, 6, 3>
+/// Depth of a landmark minus its observation, in sigmas. Blocks as above. The second residual is always 0: Ceres has
+/// its Schur elimination compiled for residual blocks of 2 rows; blocks that differ cost a fifth of the whole time
+/// more.
+class DepthCost : public ceres::SizedCostFunction<2, 6, 3>
 {
 public:
   DepthCost(const LinearisedCamera* camera, double depth_m, double sigma_m)

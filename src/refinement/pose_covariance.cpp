@@ -25,15 +25,16 @@ struct ResidualSum
   double weight = 0;  ///< number of scalar residuals, each counted by its weight
 };
 
-template <typename Cost, int ROWS>
-void accumulate(const Cost& cost, const double* landmark, double loss_width, SightEquations* equations,
+/// `dimension`: how many of the cost's two residuals are measurements.
+template <typename Cost>
+void accumulate(const Cost& cost, const double* landmark, double loss_width, int dimension, SightEquations* equations,
                 ResidualSum* sum)
 {
   const geometry::Vector6d motion = geometry::Vector6d::Zero();
   const double* parameters[2] = { motion.data(), landmark };
-  Eigen::Matrix<double, ROWS, 1> residual;
-  Eigen::Matrix<double, ROWS, 6, Eigen::RowMajor> by_motion;
-  Eigen::Matrix<double, ROWS, 3, Eigen::RowMajor> by_point;
+  Eigen::Vector2d residual;
+  Eigen::Matrix<double, 2, 6, Eigen::RowMajor> by_motion;
+  Eigen::Matrix<double, 2, 3, Eigen::RowMajor> by_point;
   double* jacobians[2] = { by_motion.data(), by_point.data() };
   if (!cost.Evaluate(parameters, residual.data(), jacobians))
     return;
@@ -42,7 +43,7 @@ void accumulate(const Cost& cost, const double* landmark, double loss_width, Sig
   equations->cross += weight * by_motion.transpose() * by_point;
   equations->point += weight * by_point.transpose() * by_point;
   sum->squared += weight * residual.squaredNorm();
-  sum->weight += weight * ROWS;
+  sum->weight += weight * dimension;
 }
 
 /// Motion on the left of T_camera_session -> motion on the left of T_session_camera (adjoint; the sign cancels).
@@ -104,13 +105,13 @@ std::vector<geometry::Matrix6d> poseCovariances(const std::vector<rgbd::Keyframe
     const double* landmark = state.map.landmarks[sight.landmark].data();
     SightEquations equations;
     equations.unknown = unknown[sight.keyframe];
-    accumulate<ReprojectionCost, 2>(ReprojectionCost(&cameras[sight.keyframe], sight.pixel, sight.sigma_px), landmark,
-                                    loss_width_sigmas, &equations, &sum);
+    accumulate(ReprojectionCost(&cameras[sight.keyframe], sight.pixel, sight.sigma_px), landmark, loss_width_sigmas, 2,
+               &equations, &sum);
     if (sight.depth_m > 0)
     {
       const double sigma_m = rgbd::axialSigma_m(sight.depth_m, 0);
-      accumulate<DepthCost, 1>(DepthCost(&cameras[sight.keyframe], sight.depth_m, sigma_m), landmark, loss_width_sigmas,
-                               &equations, &sum);
+      accumulate(DepthCost(&cameras[sight.keyframe], sight.depth_m, sigma_m), landmark, loss_width_sigmas, 1,
+                 &equations, &sum);
     }
     of_landmark.push_back(equations);
     if (i + 1 == sights.size() || sights[i + 1].landmark != sight.landmark)
