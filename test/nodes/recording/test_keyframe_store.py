@@ -70,9 +70,9 @@ class Store:
         self.process = None
         self.start()
 
-    def start(self):
+    def start(self, **limits):
         self.process = NodeProcess("keyframe_store", "__name:=" + self.name, "keyframe:=%s/keyframe" % self.name,
-                                   "mask:=%s/mask" % self.name)
+                                   "mask:=%s/mask" % self.name, **limits)
         self.wait(lambda: self.keyframes.get_num_connections() > 0 and self.masks.get_num_connections() > 0)
         for service, kind in SERVICES.items():
             rospy.wait_for_service(self.name + "/" + service, 10)
@@ -219,6 +219,28 @@ class KeyframeStoreTest(unittest.TestCase):
         self.assertEqual(response.status.code, Status.STORAGE, response.status.message)
         self.assertIn("/proc/no", response.status.message)
         self.assertTrue(store.process.running())
+
+    def test_a_full_disk(self):
+        store = self.store("full")
+        self.succeed(store.create_session(Session(session_id="s")))
+        self.assertEqual(store.process.interrupt()[0], 0)
+        store.start(max_file_bytes=1000000)
+        kept = []
+        for index in range(20):
+            response = store.add_keyframe(keyframe("s", index))
+            if response.status.code != Status.OK:
+                break
+            kept.append(index)
+        self.assertEqual(response.status.code, Status.STORAGE, response.status.message)
+        store.keyframes.publish(keyframe("s", len(kept)))
+        store.wait(lambda: store.state.refused_count == 1)
+        self.assertEqual(store.state.status.code, Status.STORAGE)
+        self.assertEqual(list(self.succeed(store.get_session("s")).keyframe_ids), kept)
+        # With room again, it goes on where it was.
+        store.process.kill()
+        store.start()
+        self.assertEqual(list(self.succeed(store.get_session("s")).keyframe_ids), kept)
+        self.succeed(store.add_keyframe(keyframe("s", len(kept))))
 
     def test_unknown_parameter(self):
         rospy.set_param("mistaken_store/store_pth", "x")
