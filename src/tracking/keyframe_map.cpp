@@ -10,6 +10,7 @@ namespace object_modelling::tracking
 namespace
 {
 constexpr double MAX_REFERENCE_ANGLE_RAD = 1.0;  // a view turned further shares no patch that could be recognised
+constexpr double DISTRUST_RAD = 0.35;            // as good as a trusted view that much further round
 const cv::Size THUMBNAIL_SIZE(40, 30);
 
 double viewAngle_rad(const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b)
@@ -64,7 +65,9 @@ std::vector<const MapKeyframe*> KeyframeMap::nearestViews(const Eigen::Isometry3
   {
     const double angle_rad = viewAngle_rad(keyframe->T_session_camera, T_session_camera);
     if (angle_rad < MAX_REFERENCE_ANGLE_RAD)
-      scored.emplace_back(angle_rad + distanceRatio(*keyframe, T_session_camera), keyframe.get());
+      scored.emplace_back(
+          angle_rad + distanceRatio(*keyframe, T_session_camera) + (keyframe->trusted ? 0 : DISTRUST_RAD),
+          keyframe.get());
   }
   std::stable_sort(scored.begin(), scored.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<const MapKeyframe*> nearest;
@@ -87,7 +90,8 @@ std::vector<const MapKeyframe*> KeyframeMap::similarImages(const cv::Mat& thumbn
 {
   std::vector<std::pair<double, const MapKeyframe*>> scored;
   for (const auto& keyframe : keyframes_)
-    scored.emplace_back(-thumbnail.dot(keyframe->thumbnail), keyframe.get());
+    if (keyframe->trusted)
+      scored.emplace_back(-thumbnail.dot(keyframe->thumbnail), keyframe.get());
   std::stable_sort(scored.begin(), scored.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<const MapKeyframe*> similar;
   for (std::size_t i = 0; i < std::min(count, scored.size()); ++i)

@@ -29,6 +29,9 @@ struct MapKeyframe
   int id = -1;
   Eigen::Isometry3d T_session_camera = Eigen::Isometry3d::Identity();
   double median_depth_m = 1;
+  /// Whether the pose rests on a good fit to other trusted keyframes. One that does not (blurred, in a hurry, next to
+  /// nothing in view) carries the tracking on, but is not what a lost camera is placed by.
+  bool trusted = true;
   std::vector<cv::Mat> pyramid;  ///< grey, full resolution first
   std::vector<Sighting> sightings;
   rgbd::Frame frame;  ///< without colour
@@ -52,13 +55,14 @@ public:
   const MapKeyframe& add(MapKeyframe keyframe);
   const std::vector<std::unique_ptr<MapKeyframe>>& keyframes() const { return keyframes_; }
 
-  /// Keyframes by predicted likeness of their view to a pose, the most alike first; those that look elsewhere left out.
+  /// Keyframes by predicted likeness of their view to a pose, the most alike first, trusted ones before others that are
+  /// little nearer; those that look elsewhere left out.
   std::vector<const MapKeyframe*> nearestViews(const Eigen::Isometry3d& T_session_camera, std::size_t count) const;
 
   /// Whether no keyframe looks from within both an angle and a distance (as a share of its depth).
   bool isNewView(const Eigen::Isometry3d& T_session_camera, double angle_rad, double distance_ratio) const;
 
-  /// Keyframes by likeness of the image, for when no pose is known.
+  /// Trusted keyframes by likeness of the image, for when no pose is known.
   std::vector<const MapKeyframe*> similarImages(const cv::Mat& thumbnail, std::size_t count) const;
 
 private:

@@ -75,7 +75,8 @@ MapMatches matchMap(const KeyframeMap& map, const rgbd::Frame& frame, const Imag
       ++found;
       result.matches.push_back({ sighting.landmark_id,
                                  { reference->T_session_camera * sighting.p_keyframe, refined.pixel.cast<double>(),
-                                   sampleDepth_m(frame.depth_m, refined.pixel.x(), refined.pixel.y()) } });
+                                   sampleDepth_m(frame.depth_m, refined.pixel.x(), refined.pixel.y()) },
+                                 reference->trusted });
     }
     if (nearest && !reference->sightings.empty())
       result.reference_share = static_cast<double>(found) / static_cast<double>(reference->sightings.size());

@@ -14,6 +14,7 @@ struct LandmarkMatch
 {
   std::uint64_t landmark_id = 0;
   Correspondence correspondence;
+  bool trusted = true;  ///< its place comes from a trusted keyframe
 };
 
 struct MapMatches

@@ -203,7 +203,14 @@ PoseEstimate refinePose(const std::vector<Correspondence>& correspondences, cons
     return rough;
   gated.max_reprojection_error_px = adaptedGate_px(correspondences, camera, rough.T_session_camera.inverse(), options);
   gated.max_iterations = options.max_iterations;
-  return solve(correspondences, camera, rough.T_session_camera, gated);
+  PoseEstimate estimate = solve(correspondences, camera, rough.T_session_camera, gated);
+  const Eigen::Isometry3d T_camera_session = estimate.T_session_camera.inverse();
+  const double squared_gate = options.max_reprojection_error_px * options.max_reprojection_error_px;
+  for (std::size_t i = 0; i < estimate.inliers.size(); ++i)
+    estimate.close_count +=
+        estimate.inliers[i] &&
+        squaredError_px(correspondences[i], T_camera_session * correspondences[i].p_session, camera) <= squared_gate;
+  return estimate;
 }
 
 PoseEstimate estimatePose(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,

@@ -45,7 +45,9 @@ std::vector<const MapKeyframe*> candidates(const rgbd::Frame& frame, const Keyfr
 {
   std::vector<const MapKeyframe*> chosen;
   if (T_session_camera_hint)
-    chosen = map.nearestViews(*T_session_camera_hint, options.near_candidates);
+    for (const MapKeyframe* near : map.nearestViews(*T_session_camera_hint, options.near_candidates))
+      if (near->trusted)
+        chosen.push_back(near);
   for (const MapKeyframe* similar : map.similarImages(makeThumbnail(frame.gray), options.similar_candidates))
     if (std::find(chosen.begin(), chosen.end(), similar) == chosen.end())
       chosen.push_back(similar);

@@ -16,7 +16,6 @@ constexpr double MIN_REFERENCE_SHARE = 0.4;    // of the reference's landmarks: 
 constexpr double LAST_REFERENCE_SHARE = 0.25;  // ... and below this it is taken even from a blurred frame
 constexpr double MAX_KEYFRAME_BLUR_RATIO = 0.5;
 constexpr double MAX_KEYFRAME_ANGULAR_SPEED_RAD_PER_S = 2.5;
-constexpr double LEAVING_RATIO = 1.5;  // of the keyframe angle: where the next frame must not find itself alone
 constexpr int MIN_FRAMES_BETWEEN_KEYFRAMES = 3;
 constexpr double SHARPNESS_DECAY_RATIO = 0.998;  // per frame, so that a plainer side of the scene becomes the measure
 }  // namespace
@@ -95,7 +94,7 @@ TrackingResult CameraTracker::Implementation::track(const rgbd::Frame& frame)
 void CameraTracker::Implementation::start(const rgbd::Frame& frame, const ImagePyramid& pyramid, TrackingResult* result)
 {
   camera_ = frame.camera;
-  addKeyframe(frame, pyramid, Eigen::Isometry3d::Identity(), {}, result);
+  addKeyframe(frame, pyramid, Eigen::Isometry3d::Identity(), {}, true, result);
   result->inlier_count = result->feature_count = static_cast<int>(last_inliers_.size());
   if (result->inlier_count < options_.min_inliers)
   {
@@ -117,43 +116,38 @@ void CameraTracker::Implementation::considerKeyframe(const rgbd::Frame& frame, c
   last_inliers_ = placement.inliers;
   const bool running_out =
       placement.reference_share < LAST_REFERENCE_SHARE || result->inlier_count < 3 * options_.min_inliers / 2;
-  // Taken while the last keyframe is still well in view: before a large step would leave it, not after.
-  const Eigen::Isometry3d T_session_next = *motion_.predict(2 * frame.stamp_s - previous_placed_s_);
-  const bool new_view =
-      map_.isNewView(result->T_session_camera, options_.keyframe_angle_rad, options_.keyframe_distance_ratio) ||
-      map_.isNewView(T_session_next, LEAVING_RATIO * options_.keyframe_angle_rad,
-                     LEAVING_RATIO * options_.keyframe_distance_ratio);
-  const bool poorly_seen = placement.wide_baseline || (placement.reference_share < MIN_REFERENCE_SHARE &&
-                                                       frames_since_keyframe_ >= MIN_FRAMES_BETWEEN_KEYFRAMES);
+  // Keyframes as near to the wanted distance as the steps allow: half a step from now another frame would be the nearer.
+  const double half_step_s = 0.5 * (frame.stamp_s - previous_placed_s_);
+  const bool new_view = map_.isNewView(*motion_.predict(frame.stamp_s + half_step_s), options_.keyframe_angle_rad,
+                                       options_.keyframe_distance_ratio);
+  const bool poorly_seen =
+      placement.reference_share < MIN_REFERENCE_SHARE &&
+      (placement.wide_baseline || frames_since_keyframe_ >= MIN_FRAMES_BETWEEN_KEYFRAMES);
   if (!running_out && !new_view && !poorly_seen)
     return;
-  // A view that was found again without flow adds nothing if the map has it already.
-  if (placement.wide_baseline && placement.reference_share >= MIN_REFERENCE_SHARE)
-    return;
-  if (!running_out && result->blur_ratio > MAX_KEYFRAME_BLUR_RATIO)
-  {
+  const bool blurred = result->blur_ratio > MAX_KEYFRAME_BLUR_RATIO;
+  const bool fast = !objectOnly() && result->angular_speed_rad_per_s > MAX_KEYFRAME_ANGULAR_SPEED_RAD_PER_S;
+  if (!running_out && blurred)
     result->reason = "keyframe refused: blurred (" + std::to_string(result->blur_ratio) + "), move slower";
-    return;
-  }
-  if (!running_out && !placement.wide_baseline &&
-      result->angular_speed_rad_per_s > MAX_KEYFRAME_ANGULAR_SPEED_RAD_PER_S)
-  {
+  else if (!running_out && fast)
     result->reason =
         "keyframe refused: turning at " + std::to_string(result->angular_speed_rad_per_s) + " rad/s, move slower";
-    return;
-  }
-  addKeyframe(frame, pyramid, result->T_session_camera, placement.inliers, result);
+  else
+    addKeyframe(frame, pyramid, result->T_session_camera, placement.inliers, placement.trusted && !blurred && !fast,
+                result);
 }
 
 void CameraTracker::Implementation::addKeyframe(const rgbd::Frame& frame, const ImagePyramid& pyramid,
                                                 const Eigen::Isometry3d& T_session_camera,
-                                                const std::vector<LandmarkMatch>& matches, TrackingResult* result)
+                                                const std::vector<LandmarkMatch>& matches, bool trusted,
+                                                TrackingResult* result)
 {
   FeatureDetectorOptions detector;
   detector.max_features = options_.max_features;
   NewKeyframe made = makeKeyframe(next_keyframe_id_++, frame, pyramid, T_session_camera, matches, objectOnly(),
                                   detector, &next_landmark_id_);
   made.keyframe.covariance = result->covariance;
+  made.map.trusted = trusted;
   const MapKeyframe& added = map_.add(std::move(made.map));
   result->keyframe = std::move(made.keyframe);
   frames_since_keyframe_ = 0;
@@ -161,7 +155,8 @@ void CameraTracker::Implementation::addKeyframe(const rgbd::Frame& frame, const 
   for (const Sighting& sighting : added.sightings)
     last_inliers_.push_back(
         { sighting.landmark_id,
-          { T_session_camera * sighting.p_keyframe, sighting.pixel.cast<double>(), sighting.p_keyframe.z() } });
+          { T_session_camera * sighting.p_keyframe, sighting.pixel.cast<double>(), sighting.p_keyframe.z() },
+          trusted });
 }
 
 double CameraTracker::Implementation::updateBlur(const rgbd::Frame& frame, const ImagePyramid& pyramid)

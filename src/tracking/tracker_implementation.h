@@ -31,6 +31,7 @@ private:
     std::vector<LandmarkMatch> inliers;  ///< what the pose rests on
     double reference_share = 0;
     bool wide_baseline = false;  ///< found without optical flow
+    bool trusted = false;        ///< a good fit to trusted keyframes
     std::string reason;
   };
 
@@ -47,7 +48,7 @@ private:
   void considerKeyframe(const rgbd::Frame& frame, const ImagePyramid& pyramid, const Placement& placement,
                         TrackingResult* result);
   void addKeyframe(const rgbd::Frame& frame, const ImagePyramid& pyramid, const Eigen::Isometry3d& T_session_camera,
-                   const std::vector<LandmarkMatch>& matches, TrackingResult* result);
+                   const std::vector<LandmarkMatch>& matches, bool trusted, TrackingResult* result);
   double updateBlur(const rgbd::Frame& frame, const ImagePyramid& pyramid);
   std::uint64_t seed() const { return options_.seed * 1000003 + frame_count_; }
   bool objectOnly() const { return options_.reference == Reference::OBJECT; }

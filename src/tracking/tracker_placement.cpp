@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
@@ -15,6 +16,7 @@ constexpr double MAX_SPEED_M_PER_S = 4.0;
 constexpr double MAX_ANGULAR_SPEED_RAD_PER_S = 12.0;
 constexpr double RECOGNITION_ERROR_PX = 4.0;
 constexpr double FLOW_PREDICTION_ERROR_PX = 1.5;
+constexpr double TRUSTED_RMSE_RATIO = 0.6;  // of the inlier gate; wrong poses fill the gate evenly, which gives 0.7
 
 std::vector<LandmarkMatch> inliersOf(const std::vector<LandmarkMatch>& matches, const PoseEstimate& pose)
 {
@@ -23,6 +25,12 @@ std::vector<LandmarkMatch> inliersOf(const std::vector<LandmarkMatch>& matches, 
     if (pose.inliers[i])
       inliers.push_back(matches[i]);
   return inliers;
+}
+
+int countTrusted(const std::vector<LandmarkMatch>& matches)
+{
+  return static_cast<int>(
+      std::count_if(matches.begin(), matches.end(), [](const LandmarkMatch& match) { return match.trusted; }));
 }
 
 std::vector<Correspondence> correspondencesOf(const std::vector<LandmarkMatch>& matches)
@@ -73,11 +81,12 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByF
       continue;
     matches.push_back({ last_inliers_[i].landmark_id,
                         { last_inliers_[i].correspondence.p_session, pixel.cast<double>(),
-                          sampleDepth_m(frame.depth_m, pixel.x(), pixel.y()) } });
+                          sampleDepth_m(frame.depth_m, pixel.x(), pixel.y()) },
+                        last_inliers_[i].trusted });
   }
   const PoseEstimate rough =
       estimatePose(correspondencesOf(matches), frame.camera, T_session_predicted, seed(), poseOptions());
-  if (!rough.valid || rough.inlier_count < options_.min_inliers ||
+  if (!rough.valid || rough.close_count < options_.min_inliers ||
       rough.inlier_count < options_.min_inlier_ratio * static_cast<double>(last_inliers_.size()))
   {
     placement.reason = "optical flow: " + std::to_string(rough.inlier_count) + " of " +
@@ -130,17 +139,24 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByM
       if (flow_pixels.count(match.landmark_id) > 0)
         found.matches.push_back(match);
   }
+  if (countTrusted(found.matches) >= 2 * options_.min_inliers)
+    found.matches.erase(std::remove_if(found.matches.begin(), found.matches.end(),
+                                       [](const LandmarkMatch& match) { return !match.trusted; }),
+                        found.matches.end());
   placement.pose = refinePose(correspondencesOf(found.matches), frame.camera, T_session_camera, poseOptions());
-  if (!placement.pose.valid || placement.pose.inlier_count < options_.min_inliers ||
+  if (!placement.pose.valid || placement.pose.close_count < options_.min_inliers ||
       placement.pose.inlier_count < options_.min_inlier_ratio * static_cast<double>(found.matches.size()))
   {
-    placement.reason = std::to_string(placement.pose.inlier_count) + " consistent landmarks of " +
+    placement.reason = std::to_string(placement.pose.close_count) + " consistent landmarks of " +
                        std::to_string(found.predicted_count) + " that should be in view (at least " +
                        std::to_string(options_.min_inliers) + " are needed)";
     placement.pose.valid = false;
     return placement;
   }
   placement.inliers = inliersOf(found.matches, placement.pose);
+  placement.trusted =
+      countTrusted(placement.inliers) >= options_.min_inliers &&
+      placement.pose.reprojection_rmse_px <= TRUSTED_RMSE_RATIO * options_.max_reprojection_error_px;
   return placement;
 }
 
