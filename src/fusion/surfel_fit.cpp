@@ -12,9 +12,9 @@ namespace object_modelling::fusion
 {
 namespace
 {
-constexpr float SAME_SIDE_COSINE = 0.5f;  ///< normals less than 60 deg apart may be of one surface
-constexpr int FIT_ITERATIONS = 3;
-constexpr float SPACING_RATIO = 0.8f;  ///< least to aimed-at distance of fused points
+constexpr float SAME_SIDE_COSINE = 0.5f;                   ///< normals less than 60 deg apart may be of one surface
+constexpr int COARSE_ITERATIONS = 3, FINE_ITERATIONS = 1;  ///< the fine fit starts where the coarse one ended
+constexpr float SPACING_RATIO = 0.8f;                      ///< least to aimed-at distance of fused points
 /// On all but the height, as a share of the summed weights: it decides only where the observations do not.
 constexpr float RIDGE_RATIO = 0.001f;
 /// Far from the camera a neighbourhood must be as wide, or it holds a handful of pixels.
@@ -93,14 +93,14 @@ std::vector<Observation> cellMeans(const ObservationGrid& grid)
   return means;
 }
 
-bool fitSurfel(const ObservationGrid& grid, const CloudFusionOptions& options, std::vector<char>* views_scratch,
-               Surfel* surfel)
+bool fitSurfel(const ObservationGrid& grid, const CloudFusionOptions& options, int iterations,
+               std::vector<char>* views_scratch, Surfel* surfel)
 {
   const float radius_m = surfel->radius_m;
   const auto sigmas = static_cast<float>(options.consistency_sigmas);
-  for (int iteration = 0; iteration < FIT_ITERATIONS; ++iteration)
+  for (int iteration = 0; iteration < iterations; ++iteration)
   {
-    const bool last = iteration + 1 == FIT_ITERATIONS;
+    const bool last = iteration + 1 == iterations;
     const Eigen::Vector3f n = surfel->normal, e1 = n.unitOrthogonal(), e2 = n.cross(e1);
     HeightFit fit;
     Eigen::Vector3f normal_sum = Eigen::Vector3f::Zero();
@@ -150,8 +150,8 @@ bool fitSurfel(const ObservationGrid& grid, const CloudFusionOptions& options, s
   return surfel->point.allFinite();
 }
 
-std::vector<Surfel> fitSurfels(const ObservationGrid& grid, const CloudFusionOptions& options, int view_count,
-                               int min_views, std::vector<Surfel> seeds)
+std::vector<Surfel> fitSurfels(const ObservationGrid& grid, const CloudFusionOptions& options, int iterations,
+                               int view_count, int min_views, std::vector<Surfel> seeds)
 {
   std::vector<char> good(seeds.size(), 0);
 #pragma omp parallel
@@ -159,7 +159,7 @@ std::vector<Surfel> fitSurfels(const ObservationGrid& grid, const CloudFusionOpt
     std::vector<char> views_scratch(view_count, 0);
 #pragma omp for schedule(dynamic, 256)
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(seeds.size()); ++i)
-      good[i] = fitSurfel(grid, options, &views_scratch, &seeds[i]) && seeds[i].views >= min_views;
+      good[i] = fitSurfel(grid, options, iterations, &views_scratch, &seeds[i]) && seeds[i].views >= min_views;
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < seeds.size(); ++i)
@@ -184,8 +184,9 @@ std::vector<Surfel> fuseSurface(const ObservationGrid& grid, const CloudFusionOp
         std::max(static_cast<float>(options.averaging_radius_m), LATERAL_SIGMAS * means[i].lateral_sigma_m);
   }
   const ObservationGrid coarse_grid({ means }, static_cast<float>(options.resolution_m));
-  seeds = thinOut(fitSurfels(coarse_grid, options, 1, 1, std::move(seeds)), spacing_m);
-  return thinOut(fitSurfels(grid, options, view_count, options.min_views, std::move(seeds)), spacing_m);
+  seeds = thinOut(fitSurfels(coarse_grid, options, COARSE_ITERATIONS, 1, 1, std::move(seeds)), spacing_m);
+  return thinOut(fitSurfels(grid, options, FINE_ITERATIONS, view_count, options.min_views, std::move(seeds)),
+                 spacing_m);
 }
 
 std::vector<Surfel> thinOut(const std::vector<Surfel>& surfels, float spacing_m)

@@ -25,12 +25,12 @@ std::vector<Observation> cellMeans(const ObservationGrid& grid);
 
 /// Moves a seed along its normal onto the weighted mean of the observations round it that face the same way and agree
 /// with each other; false if too few do. `views_scratch` is as long as there are views.
-bool fitSurfel(const ObservationGrid& grid, const CloudFusionOptions& options, std::vector<char>* views_scratch,
-               Surfel* surfel);
+bool fitSurfel(const ObservationGrid& grid, const CloudFusionOptions& options, int iterations,
+               std::vector<char>* views_scratch, Surfel* surfel);
 
 /// All seeds fitted, in parallel; those that fail or have fewer than `min_views` are left out.
-std::vector<Surfel> fitSurfels(const ObservationGrid& grid, const CloudFusionOptions& options, int view_count,
-                               int min_views, std::vector<Surfel> seeds);
+std::vector<Surfel> fitSurfels(const ObservationGrid& grid, const CloudFusionOptions& options, int iterations,
+                               int view_count, int min_views, std::vector<Surfel> seeds);
 
 /// The surface that the observations give: fitted coarsely to the cells' means first, which leaves few places to fit to
 /// the observations themselves.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <system_error>
 
@@ -20,6 +21,20 @@ bool hasField(const pcl::PCLPointCloud2& cloud, const std::string& name)
 {
   return std::any_of(cloud.fields.begin(), cloud.fields.end(),
                      [&](const pcl::PCLPointField& field) { return field.name == name; });
+}
+
+std::size_t offsetOf(const pcl::PCLPointCloud2& cloud, const std::string& name)
+{
+  return std::find_if(cloud.fields.begin(), cloud.fields.end(),
+                      [&](const pcl::PCLPointField& field) { return field.name == name; })
+      ->offset;
+}
+
+float floatAt(const pcl::PCLPointCloud2& cloud, std::size_t point, std::size_t offset)
+{
+  float value;
+  std::memcpy(&value, &cloud.data[point * cloud.point_step + offset], sizeof(value));
+  return value;
 }
 
 /// The writer takes every field of the cloud for a property of the file.
@@ -72,7 +87,9 @@ geometry::TriangleMesh readPly(const std::string& path)
   pcl::PolygonMesh polygons;
   if (pcl::io::loadPLYFile(path, polygons) != 0)
     throw base::Error(base::StatusCode::BAD_INPUT, "'" + path + "' is not a PLY file that can be read");
-  const bool normals = hasField(polygons.cloud, "normal_x"), colors = hasField(polygons.cloud, "rgb");
+  const bool normals = hasField(polygons.cloud, "normal_x") && hasField(polygons.cloud, "normal_y") &&
+                       hasField(polygons.cloud, "normal_z");
+  const bool colors = hasField(polygons.cloud, "rgb");
   if (!hasField(polygons.cloud, "x") || !hasField(polygons.cloud, "y") || !hasField(polygons.cloud, "z"))
     throw base::Error(base::StatusCode::BAD_INPUT, "'" + path + "': its vertices have no float x, y, z");
 
@@ -83,10 +100,11 @@ geometry::TriangleMesh readPly(const std::string& path)
     mesh.vertices.push_back(point.getVector3fMap());
   if (normals)
   {
-    pcl::PointCloud<pcl::Normal> cloud;
-    pcl::fromPCLPointCloud2(polygons.cloud, cloud);
-    for (const auto& normal : cloud)
-      mesh.normals.push_back(normal.getNormalVector3fMap());
+    const std::size_t x = offsetOf(polygons.cloud, "normal_x"), y = offsetOf(polygons.cloud, "normal_y"),
+                      z = offsetOf(polygons.cloud, "normal_z");
+    for (std::size_t i = 0; i < points.size(); ++i)
+      mesh.normals.push_back(
+          { floatAt(polygons.cloud, i, x), floatAt(polygons.cloud, i, y), floatAt(polygons.cloud, i, z) });
   }
   if (colors)
   {
