@@ -42,7 +42,7 @@ TEST(SessionPreview, OnePointPerVoxelInTheSessionFrame)
   EXPECT_EQ(SessionPreview::Color(3, 2, 1), cloud.colors_rgb.front());
   preview.add(keyframeAt(1, 0));  // the same again
   EXPECT_EQ(cloud.points_session.size(), preview.cloud().points_session.size());
-  preview.move({ { 1, keyframeAt(1, 10).T_session_camera, {} } });
+  preview.move({ { 1, keyframeAt(1, 10).T_session_camera, geometry::Matrix6d::Zero() } });
   EXPECT_EQ(2 * cloud.points_session.size(), preview.cloud().points_session.size());
   EXPECT_EQ(10, preview.views()[1].T_session_camera.translation().x());
 }
@@ -78,7 +78,7 @@ TEST(SessionPreview, IsBounded)
 TEST(SessionPreview, UnknownKeyframesAreIgnored)
 {
   SessionPreview preview{ SessionPreviewOptions() };
-  preview.move({ { 5, Eigen::Isometry3d::Identity(), {} } });
+  preview.move({ { 5, Eigen::Isometry3d::Identity(), geometry::Matrix6d::Zero() } });
   preview.mask({ { 5, maskOfOnePixel() } });
   EXPECT_TRUE(preview.views().empty());
 }
