@@ -96,13 +96,13 @@ class Demo:
     def _on_state(self, state):
         self._state = state
 
-    def _call(self, name, service_type, **fields):
+    def _call(self, service, service_type, **fields):
         try:
-            answer = rospy.ServiceProxy(self._manager + name, service_type)(**fields)
+            answer = rospy.ServiceProxy(self._manager + service, service_type)(**fields)
         except rospy.ServiceException as error:
-            raise DemoError(EXIT_NODE_DOWN, "%s%s: %s" % (self._manager, name, error)) from error
+            raise DemoError(EXIT_NODE_DOWN, "%s%s: %s" % (self._manager, service, error)) from error
         if answer.status.code != Code.OK:
-            raise Failure(answer.status.code, "%s: %s" % (name, answer.status.message))
+            raise Failure(answer.status.code, "%s: %s" % (service, answer.status.message))
         return answer
 
     def _play(self):
