@@ -9,7 +9,6 @@ constexpr char CAMERA_INFO[] = "rgb/camera_info";
 constexpr char OBJECT_MASK[] = "object_mask";
 
 constexpr char CAMERA_TRACKER[] = "camera_tracker";
-constexpr char KEYFRAME_STORE[] = "keyframe_store";
 constexpr char STATE[] = "state";
 constexpr char KEYFRAME[] = "keyframe";
 constexpr char MASK[] = "mask";

@@ -58,8 +58,7 @@ class Store:
         self.path = store_path or os.path.join(folder, "folder to make", "k.sqlite")
         rospy.set_param(name + "/store_path", self.path)
         rospy.set_param(name + "/preview_rate_hz", 20)
-        self.keyframes = rospy.Publisher(name + "/keyframe", Keyframe, queue_size=50)
-        self.masks = rospy.Publisher(name + "/mask", ObjectMask, queue_size=50)
+        self.keyframes, self.masks = None, None
         self.state, self.cloud, self.path_preview, self.frusta = None, None, None, None
         self._subscribers = [
             rospy.Subscriber(name + "/state", StoreState, lambda m: setattr(self, "state", m)),
@@ -71,6 +70,12 @@ class Store:
         self.start()
 
     def start(self, **limits):
+        # New publishers: rospy counts a listener that was killed until it next writes to it.
+        for publisher in (self.keyframes, self.masks):
+            if publisher:
+                publisher.unregister()
+        self.keyframes = rospy.Publisher(self.name + "/keyframe", Keyframe, queue_size=50)
+        self.masks = rospy.Publisher(self.name + "/mask", ObjectMask, queue_size=50)
         self.process = NodeProcess("keyframe_store", "__name:=" + self.name, "keyframe:=%s/keyframe" % self.name,
                                    "mask:=%s/mask" % self.name, **limits)
         self.wait(lambda: self.keyframes.get_num_connections() > 0 and self.masks.get_num_connections() > 0)
