@@ -14,7 +14,7 @@ namespace object_modelling::tracking
 {
 namespace
 {
-constexpr int MASK_MARGIN_PX = 4;  // half a patch must lie on the object
+constexpr int MASK_MARGIN_PX = 4;  // most of a patch must lie on the object
 
 /// Where a landmark may be: with depth, and well inside the object if only that counts.
 cv::Mat allowedMask(const rgbd::Frame& frame, bool object_only)

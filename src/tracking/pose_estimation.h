@@ -35,7 +35,7 @@ struct PoseEstimate
   geometry::Matrix6d covariance = geometry::Matrix6d::Zero();
   std::vector<std::uint8_t> inliers;  ///< per correspondence
   int inlier_count = 0;
-  int close_count = 0;  ///< inliers within max_reprojection_error_px, however wide the gate was
+  int close_count = 0;              ///< inliers within max_reprojection_error_px, however wide the gate was
   double reprojection_rmse_px = 0;  ///< of the inliers
 };
 

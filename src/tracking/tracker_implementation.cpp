@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "depth_sampling.h"
 #include "keyframe_maker.h"
+#include "object_modelling/base/status.h"
 #include "object_modelling/rgbd/normals.h"
 
 namespace object_modelling::tracking
@@ -22,13 +21,16 @@ constexpr double SHARPNESS_DECAY_RATIO = 0.998;  // per frame, so that a plainer
 
 std::string CameraTracker::Implementation::refuse(const rgbd::Frame& frame) const
 {
-  if (frame.gray.empty() || frame.gray.size() != frame.depth_m.size())
-    return "frame without images of one size";
-  if (objectOnly() && (frame.object_mask.empty() || cv::countNonZero(frame.object_mask) == 0))
+  const cv::Size size(frame.camera.width, frame.camera.height);
+  if (frame.gray.empty() || frame.gray.size() != size || frame.depth_m.size() != size)
+    return "images of " + std::to_string(frame.gray.cols) + " x " + std::to_string(frame.gray.rows) + " (grey) and " +
+           std::to_string(frame.depth_m.cols) + " x " + std::to_string(frame.depth_m.rows) +
+           " px (depth) do not fit the camera's " + std::to_string(size.width) + " x " + std::to_string(size.height) +
+           " px";
+  if (objectOnly() &&
+      (frame.object_mask.empty() || frame.object_mask.size() != size || cv::countNonZero(frame.object_mask) == 0))
     return "frame has no object mask, which tracking by the object needs";
-  if (frame_count_ == 0)
-    return {};
-  if (!(frame.stamp_s > last_stamp_s_))
+  if (frame_count_ > 0 && !(frame.stamp_s > last_stamp_s_))
     return "stamp " + std::to_string(frame.stamp_s) + " s is not newer than that of the last frame, " +
            std::to_string(last_stamp_s_) + " s";
   if (!map_.empty() && !(frame.camera == camera_))
@@ -38,7 +40,19 @@ std::string CameraTracker::Implementation::refuse(const rgbd::Frame& frame) cons
   return {};
 }
 
-TrackingResult CameraTracker::Implementation::track(const rgbd::Frame& frame)
+TrackingResult CameraTracker::Implementation::track(const rgbd::Frame& given)
+{
+  // Masks may come with some frames of a scene too; they say nothing of what stands still.
+  rgbd::Frame frame = given;
+  if (!objectOnly())
+    frame.object_mask.release();
+  TrackingResult result = trackUsable(frame);
+  if (result.keyframe)
+    result.keyframe->frame.object_mask = given.object_mask;
+  return result;
+}
+
+TrackingResult CameraTracker::Implementation::trackUsable(const rgbd::Frame& frame)
 {
   TrackingResult result;
   result.stamp_s = frame.stamp_s;
@@ -116,13 +130,13 @@ void CameraTracker::Implementation::considerKeyframe(const rgbd::Frame& frame, c
   last_inliers_ = placement.inliers;
   const bool running_out =
       placement.reference_share < LAST_REFERENCE_SHARE || result->inlier_count < 3 * options_.min_inliers / 2;
-  // Keyframes as near to the wanted distance as the steps allow: half a step from now another frame would be the nearer.
+  // Keyframes as near to the wanted distance as the steps allow: half a step from now another frame would be the
+  // nearer.
   const double half_step_s = 0.5 * (frame.stamp_s - previous_placed_s_);
   const bool new_view = map_.isNewView(*motion_.predict(frame.stamp_s + half_step_s), options_.keyframe_angle_rad,
                                        options_.keyframe_distance_ratio);
-  const bool poorly_seen =
-      placement.reference_share < MIN_REFERENCE_SHARE &&
-      (placement.wide_baseline || frames_since_keyframe_ >= MIN_FRAMES_BETWEEN_KEYFRAMES);
+  const bool poorly_seen = placement.reference_share < MIN_REFERENCE_SHARE &&
+                           (placement.wide_baseline || frames_since_keyframe_ >= MIN_FRAMES_BETWEEN_KEYFRAMES);
   if (!running_out && !new_view && !poorly_seen)
     return;
   const bool blurred = result->blur_ratio > MAX_KEYFRAME_BLUR_RATIO;
@@ -177,16 +191,23 @@ void CameraTracker::Implementation::resume(const std::vector<rgbd::Keyframe>& ke
   reset();
   for (const rgbd::Keyframe& keyframe : keyframes)
   {
+    if (keyframe.frame.gray.empty() || keyframe.frame.gray.size() != keyframe.frame.depth_m.size())
+      throw base::Error(base::StatusCode::BAD_INPUT, "keyframe " + std::to_string(keyframe.id) +
+                                                         " has no images: a session cannot be resumed by it");
     MapKeyframe known;
     known.id = keyframe.id;
     known.T_session_camera = keyframe.T_session_camera;
     known.frame = keyframe.frame;
+    if (!objectOnly())
+      known.frame.object_mask.release();
     known.pyramid = ImagePyramid(keyframe.frame.gray).copyLevels();
     const cv::Mat normals = rgbd::computeNormals(keyframe.frame);
     std::vector<double> depths_m;
     for (const rgbd::Observation& observation : keyframe.observations)
     {
       next_landmark_id_ = std::max(next_landmark_id_, observation.landmark_id + 1);
+      if (!keyframe.frame.camera.contains(observation.pixel.cast<double>(), 1))
+        continue;
       const auto& n = normals.at<cv::Vec3f>(static_cast<int>(std::lround(observation.pixel.y())),
                                             static_cast<int>(std::lround(observation.pixel.x())));
       if (std::isnan(observation.depth_m) || std::isnan(n[0]))

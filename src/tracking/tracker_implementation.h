@@ -35,6 +35,8 @@ private:
     std::string reason;
   };
 
+  /// track() for a frame whose object mask, if any, counts.
+  TrackingResult trackUsable(const rgbd::Frame& frame);
   std::string refuse(const rgbd::Frame& frame) const;
   Placement placeByFlow(const rgbd::Frame& frame, const ImagePyramid& pyramid) const;
   Placement placeByRecognition(const rgbd::Frame& frame, const ImagePyramid& pyramid) const;

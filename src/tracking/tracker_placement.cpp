@@ -154,9 +154,8 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByM
     return placement;
   }
   placement.inliers = inliersOf(found.matches, placement.pose);
-  placement.trusted =
-      countTrusted(placement.inliers) >= options_.min_inliers &&
-      placement.pose.reprojection_rmse_px <= TRUSTED_RMSE_RATIO * options_.max_reprojection_error_px;
+  placement.trusted = countTrusted(placement.inliers) >= options_.min_inliers &&
+                      placement.pose.reprojection_rmse_px <= TRUSTED_RMSE_RATIO * options_.max_reprojection_error_px;
   return placement;
 }
 

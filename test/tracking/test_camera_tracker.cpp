@@ -1,0 +1,239 @@
+#include <cmath>
+#include <map>
+
+#include <gtest/gtest.h>
+#include <opencv2/core/utility.hpp>
+
+#include "object_modelling/base/status.h"
+#include "tracking_scene.h"
+
+namespace object_modelling::tracking
+{
+namespace
+{
+CameraTrackerOptions objectOptions()
+{
+  CameraTrackerOptions options;
+  options.reference = Reference::OBJECT;
+  return options;
+}
+}  // namespace
+
+TEST(CameraTracker, FollowsAWalkWithinMillimetres)
+{
+  const TrackingScene scene(40);
+  CameraTracker tracker;
+  for (int i = 0; i < scene.size(); ++i)
+  {
+    const TrackingResult result = tracker.track(scene.frame(i));
+    ASSERT_TRUE(result.tracked()) << i << ": " << result.reason;
+    EXPECT_TRANSFORM_NEAR(result.T_session_camera, scene.truth(i), 0.003, 0.004) << i;
+    EXPECT_GE(result.inlier_count, 20);
+    EXPECT_GE(result.blur_ratio, 0);
+    if (i > 0)
+    {
+      EXPECT_GT(result.covariance.diagonal().minCoeff(), 0);
+    }
+  }
+}
+
+TEST(CameraTracker, KeyframesShareLandmarksWhoseSightingsAreTrue)
+{
+  const TrackingScene scene(60, 0.9);
+  CameraTracker tracker;
+  std::vector<rgbd::Keyframe> keyframes;
+  for (int i = 0; i < scene.size(); ++i)
+    if (const TrackingResult result = tracker.track(scene.frame(i)); result.keyframe)
+      keyframes.push_back(*result.keyframe);
+  ASSERT_GE(keyframes.size(), 4u);
+  std::map<std::uint64_t, std::vector<std::pair<const rgbd::Keyframe*, const rgbd::Observation*>>> tracks;
+  for (std::size_t k = 0; k < keyframes.size(); ++k)
+  {
+    EXPECT_EQ(keyframes[k].id, static_cast<int>(k));
+    for (const rgbd::Observation& observation : keyframes[k].observations)
+      tracks[observation.landmark_id].emplace_back(&keyframes[k], &observation);
+  }
+  int shared = 0;
+  int wrong = 0;
+  for (const auto& [id, track] : tracks)
+  {
+    const auto& [first, seen] = track.front();
+    for (std::size_t k = 1; k < track.size(); ++k)
+    {
+      EXPECT_NE(track[k].first, track[k - 1].first) << "landmark " << id << " twice in one keyframe";
+      const Eigen::Vector3d p_session =
+          first->T_session_camera * first->frame.camera.unproject(seen->pixel.x(), seen->pixel.y(), seen->depth_m);
+      const Eigen::Vector2d pixel =
+          track[k].first->frame.camera.project(track[k].first->T_session_camera.inverse() * p_session);
+      ++shared;
+      wrong += (pixel - track[k].second->pixel.cast<double>()).norm() > 2.5;
+    }
+  }
+  EXPECT_GT(shared, 100);
+  EXPECT_LT(wrong, 0.03 * shared);
+}
+
+TEST(CameraTracker, SameFramesSameBytesWhateverTheThreads)
+{
+  const TrackingScene scene(25);
+  const int threads = cv::getNumThreads();
+  std::vector<TrackingResult> first;
+  for (const int count : { 1, 4 })
+  {
+    cv::setNumThreads(count);
+    CameraTracker tracker;
+    for (int i = 0; i < scene.size(); ++i)
+    {
+      const TrackingResult result = tracker.track(scene.frame(i));
+      if (count == 1)
+      {
+        first.push_back(result);
+        continue;
+      }
+      EXPECT_EQ(result.T_session_camera.matrix(), first[i].T_session_camera.matrix()) << i;
+      EXPECT_EQ(result.covariance, first[i].covariance) << i;
+      EXPECT_EQ(result.keyframe.has_value(), first[i].keyframe.has_value()) << i;
+    }
+  }
+  cv::setNumThreads(threads);
+}
+
+TEST(CameraTracker, ObjectModeFollowsTheObjectAlone)
+{
+  const TrackingScene scene(20, 0.3);
+  CameraTracker tracker(objectOptions());
+  for (int i = 0; i < scene.size(); ++i)
+  {
+    const rgbd::Frame frame = scene.frame(i);
+    const TrackingResult result = tracker.track(frame);
+    ASSERT_TRUE(result.tracked()) << i << ": " << result.reason;
+    EXPECT_TRANSFORM_NEAR(result.T_session_camera, scene.truth(i), 0.006, 0.012) << i;
+    if (result.keyframe)
+    {
+      for (const rgbd::Observation& observation : result.keyframe->observations)
+        EXPECT_NE(
+            frame.object_mask.at<std::uint8_t>(std::lround(observation.pixel.y()), std::lround(observation.pixel.x())),
+            0);
+    }
+  }
+}
+
+TEST(CameraTracker, ObjectModePlacesAndKeepsEveryViewOfATurntable)
+{
+  const TrackingScene scene(8, 8 * 0.2, 6);
+  CameraTracker tracker(objectOptions());
+  Eigen::Isometry3d T_session_last = Eigen::Isometry3d::Identity();
+  for (int i = 0; i < scene.size(); ++i)
+  {
+    const TrackingResult result = tracker.track(scene.frame(i));
+    ASSERT_TRUE(result.tracked()) << i << ": " << result.reason;
+    EXPECT_TRUE(result.keyframe) << i << ": " << result.reason;
+    // From frame to frame: a small object seen small leaves its rotation to tenths of a pixel.
+    if (i > 0)
+    {
+      EXPECT_TRANSFORM_NEAR(T_session_last.inverse() * result.T_session_camera,
+                            scene.truth(i - 1).inverse() * scene.truth(i), 0.02, 0.03)
+          << i;
+    }
+    T_session_last = result.T_session_camera;
+  }
+}
+
+TEST(CameraTracker, ObjectModeNeedsAMask)
+{
+  const TrackingScene scene(3);
+  CameraTracker tracker(objectOptions());
+  rgbd::Frame frame = scene.frame(0);
+  frame.object_mask.release();
+  const TrackingResult refused = tracker.track(frame);
+  EXPECT_EQ(refused.status, TrackingStatus::NOT_STARTED);
+  EXPECT_NE(refused.reason.find("mask"), std::string::npos);
+  EXPECT_TRUE(tracker.track(scene.frame(1)).tracked());
+  frame = scene.frame(2);
+  frame.object_mask.setTo(0);
+  EXPECT_EQ(tracker.track(frame).status, TrackingStatus::LOST);
+}
+
+TEST(CameraTracker, SceneModeTakesNoNoticeOfMasks)
+{
+  const TrackingScene scene(2);
+  CameraTracker with, without;
+  for (int i = 0; i < scene.size(); ++i)
+  {
+    rgbd::Frame frame = scene.frame(i);
+    const TrackingResult masked = with.track(frame);
+    frame.object_mask.release();
+    EXPECT_EQ(masked.T_session_camera.matrix(), without.track(frame).T_session_camera.matrix());
+    if (masked.keyframe)
+    {
+      EXPECT_FALSE(masked.keyframe->frame.object_mask.empty());
+    }
+  }
+}
+
+TEST(CameraTracker, RefusesOldStampsAndOtherSizesWithoutHarm)
+{
+  const TrackingScene scene(4);
+  CameraTracker tracker;
+  CameraTracker undisturbed;
+  for (int i = 0; i < scene.size(); ++i)
+  {
+    const TrackingResult result = tracker.track(scene.frame(i));
+    EXPECT_EQ(result.T_session_camera.matrix(), undisturbed.track(scene.frame(i)).T_session_camera.matrix());
+    const TrackingResult again = tracker.track(scene.frame(i));
+    EXPECT_EQ(again.status, TrackingStatus::LOST);
+    EXPECT_NE(again.reason.find("not newer"), std::string::npos) << again.reason;
+    rgbd::Frame other = scene.frame(i);
+    other.stamp_s += 0.001;
+    other.camera = test_support::vgaCamera();
+    EXPECT_NE(tracker.track(other).reason.find("px"), std::string::npos);
+  }
+}
+
+TEST(CameraTracker, DoesNotStartInTheDarkAndSaysWhy)
+{
+  const TrackingScene scene(2);
+  CameraTracker tracker;
+  const TrackingResult dark = tracker.track(covered(scene, 0));
+  EXPECT_EQ(dark.status, TrackingStatus::NOT_STARTED);
+  EXPECT_FALSE(dark.keyframe);
+  EXPECT_FALSE(dark.reason.empty());
+  const TrackingResult result = tracker.track(scene.frame(1));
+  EXPECT_EQ(result.status, TrackingStatus::TRACKING);
+  ASSERT_TRUE(result.keyframe);
+  EXPECT_EQ(result.keyframe->id, 0);
+}
+
+TEST(CameraTracker, ResetBeginsANewSession)
+{
+  const TrackingScene scene(10);
+  CameraTracker tracker;
+  EXPECT_FALSE(tracker.predict(scene.stamp_s(0)));
+  tracker.track(scene.frame(8));
+  tracker.reset();
+  EXPECT_FALSE(tracker.predict(scene.stamp_s(0)));
+  const TrackingResult result = tracker.track(scene.frame(0));
+  EXPECT_TRUE(result.tracked());
+  EXPECT_TRUE(result.T_session_camera.isApprox(Eigen::Isometry3d::Identity()));
+}
+
+TEST(CameraTracker, PredictsByConstantVelocity)
+{
+  const TrackingScene scene(12);
+  CameraTracker tracker;
+  for (int i = 0; i + 1 < scene.size(); ++i)
+    tracker.track(scene.frame(i));
+  const auto predicted = tracker.predict(scene.stamp_s(scene.size() - 1));
+  ASSERT_TRUE(predicted);
+  EXPECT_TRANSFORM_NEAR(*predicted, scene.truth(scene.size() - 1), 0.008, 0.015);
+}
+
+TEST(CameraTracker, ChecksItsOptions)
+{
+  CameraTrackerOptions options;
+  options.min_inliers = 0;
+  options.min_inlier_ratio = 2;
+  EXPECT_EQ(options.violations().size(), 2u);
+  EXPECT_THROW(CameraTracker{ options }, base::Error);
+}
+}  // namespace object_modelling::tracking

@@ -1,0 +1,65 @@
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "depth_sampling.h"
+#include "feature_detector.h"
+#include "support/handheld_trajectory.h"
+#include "support/synthetic_scene.h"
+#include "wide_baseline_features.h"
+
+namespace object_modelling::tracking
+{
+namespace
+{
+rgbd::Frame view(double azimuth_rad)
+{
+  return test_support::renderFrame(test_support::boxOnTable(), test_support::vgaCamera(),
+                                   test_support::orbitPose({ 0, 0, 0.08 }, 0.7, azimuth_rad, 0.6));
+}
+}  // namespace
+
+TEST(DepthSampling, InterpolatesOneSurfaceOnly)
+{
+  cv::Mat depth_m = (cv::Mat_<float>(3, 4) << 1.000F, 1.004F, 1.008F, 1.5F, 1.002F, 1.006F, 1.010F, 1.5F, 1.0F,
+                     std::numeric_limits<float>::quiet_NaN(), 1.0F, 1.0F);
+  EXPECT_NEAR(sampleDepth_m(depth_m, 0.25F, 0.5F), 1.002F, 1e-6);
+  EXPECT_TRUE(std::isnan(sampleDepth_m(depth_m, 2.5F, 0.5F)));  // across a step
+  EXPECT_TRUE(std::isnan(sampleDepth_m(depth_m, 0.5F, 1.5F)));  // next to a hole
+  EXPECT_TRUE(std::isnan(sampleDepth_m(depth_m, -0.1F, 0.5F)));
+  EXPECT_TRUE(std::isnan(sampleDepth_m(depth_m, 3.2F, 0.5F)));
+  EXPECT_TRUE(std::isnan(sampleDepth_m(depth_m, std::numeric_limits<float>::quiet_NaN(), 0.5F)));
+}
+
+TEST(FeatureDetector, KeepsToTheMaskAndAwayFromOldFeatures)
+{
+  const rgbd::Frame frame = view(0);
+  FeatureDetectorOptions options;
+  options.max_features = 100;
+  const std::vector<Eigen::Vector2f> first = detectFeatures(frame.gray, frame.object_mask, {}, options);
+  ASSERT_GT(first.size(), 20u);
+  for (const Eigen::Vector2f& pixel : first)
+    EXPECT_NE(frame.object_mask.at<std::uint8_t>(std::lround(pixel.y()), std::lround(pixel.x())), 0);
+  const std::vector<Eigen::Vector2f> occupied(first.begin(), first.begin() + 20);
+  const std::vector<Eigen::Vector2f> second = detectFeatures(frame.gray, {}, occupied, options);
+  EXPECT_LE(second.size(), 80u);
+  for (const Eigen::Vector2f& a : second)
+    for (const Eigen::Vector2f& b : occupied)
+      EXPECT_GE((a - b).norm(), options.min_distance_px - 1);
+}
+
+TEST(FeatureDetector, FindsNothingInPlainOrTinyImages)
+{
+  EXPECT_TRUE(detectFeatures(cv::Mat(100, 100, CV_8UC1, cv::Scalar(77)), {}, {}, {}).empty());
+  EXPECT_TRUE(detectFeatures(cv::Mat(10, 10, CV_8UC1, cv::Scalar(77)), {}, {}, {}).empty());
+}
+
+TEST(WideBaselineFeatures, MatchAcrossTwentyDegrees)
+{
+  const WideBaselineFeatures a = detectWideBaselineFeatures(view(0));
+  const WideBaselineFeatures b = detectWideBaselineFeatures(view(0.35));
+  EXPECT_GT(matchFeatures(a, b).size(), 15u);
+  EXPECT_TRUE(matchFeatures(a, {}).empty());
+}
+}  // namespace object_modelling::tracking
