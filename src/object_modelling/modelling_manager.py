@@ -10,7 +10,7 @@ from object_modelling import msg, srv
 from object_modelling.manager_report import ManagerReport
 from object_modelling.modelling_jobs import ModellingJobs
 from object_modelling.modelling_state import ModellingState
-from object_modelling.outcome import Code, Failure, NodeDown, check_id
+from object_modelling.outcome import Code, Failure, check_id
 
 
 def _answers(response_type):
@@ -84,6 +84,7 @@ class ModellingManager:
         with self._commands:
             with self._lock:
                 self._state.check_can_stop()
+                self._state.ending()
             try:
                 answer = self._jobs.stop_tracking()
             except Failure as failure:
@@ -106,15 +107,22 @@ class ModellingManager:
                 session_id = self._state.session_to_discard(request.session_id)
                 recording = self._state.is_recording(session_id)
             if recording:
-                try:
-                    self._jobs.reset_tracking()
-                except NodeDown as failure:
-                    rospy.logwarn("discarding '%s' all the same: %s", session_id, failure.message)
+                self._end_recording(session_id)
             self._jobs.delete_session(session_id=session_id)
             with self._lock:
                 self._state.discarded(session_id)
                 self._succeeded()
         return srv.DiscardSessionResponse(session_id=session_id)
+
+    def _end_recording(self, session_id):
+        with self._lock:
+            self._state.ending()
+        try:
+            self._jobs.reset_tracking()
+        except Failure as failure:
+            rospy.logwarn("discarding '%s' all the same: %s", session_id, failure.message)
+        with self._lock:
+            self._state.stopped()
 
     @_answers(srv.BuildObjectResponse)
     def _build_object(self, request):

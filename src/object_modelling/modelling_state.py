@@ -30,6 +30,7 @@ class ModellingState:
         # session that was started, "recording" not for the session that was just stopped.
         self._confirmed = False
         self._stopped_session_id = None
+        self._ending = False  # on a call of ours that has not returned yet
 
     # Recording
 
@@ -57,7 +58,12 @@ class ModellingState:
                 Code.FAILED_PRECONDITION, "no session is being recorded (%s): start_session first" % last
             )
 
+    def ending(self):
+        """The recording is about to be ended on a call: the tracker's report of it is no surprise."""
+        self._ending = True
+
     def stopped(self, keyframe_count=None):
+        self._ending = False
         if self.state == State.RECORDING:
             self.state = State.IDLE
             self._stopped_session_id = self.session_id
@@ -82,6 +88,7 @@ class ModellingState:
         return session_id
 
     def discarded(self, session_id):
+        self._ending = False
         if session_id == self.session_id:
             self.stopped(keyframe_count=0)
             self.session_id = ""
@@ -104,7 +111,7 @@ class ModellingState:
             self._confirmed = True
             return changed, None
         self._stopped_session_id = None
-        if self.state != State.RECORDING or not self._confirmed:
+        if self.state != State.RECORDING or self._ending or not self._confirmed:
             return False, None
         lost = self.session_id
         self.stopped()

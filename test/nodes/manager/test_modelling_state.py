@@ -95,6 +95,17 @@ class TrackerReportTest(unittest.TestCase):
         self.state.tracker_reported(True, "s1", 5)  # somebody resumed it without the manager
         self.assertEqual(self.state.state, State.RECORDING)
 
+    def test_the_end_that_was_asked_for_is_no_surprise(self):
+        self.state.started("s1")
+        self.state.tracker_reported(True, "s1", 3)
+        self.state.ending()
+        self.assertEqual(self.state.tracker_reported(False, "s1", 3), (False, None))
+        self.state.stopped(3)
+        self.assertEqual(self.state.state, State.IDLE)
+        self.state.started("s2")
+        self.state.tracker_reported(True, "s2", 1)
+        self.assertIsNotNone(self.state.tracker_reported(False, "s2", 1)[1])
+
     def test_keyframes_are_counted(self):
         self.state.started("s1")
         self.assertEqual(self.state.tracker_reported(True, "s1", 2), (True, None))
