@@ -204,6 +204,9 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
                       static_cast<double>(fused.observations_inconsistent) /
                           static_cast<double>(
                               std::max<std::size_t>(1, fused.observations_used + fused.observations_inconsistent)) } };
+  model.provenance = { { "software", "object_modelling " OBJECT_MODELLING_VERSION },
+                       { "fusion_resolution_m", std::to_string(options.fusion.resolution_m) },
+                       { "surface_resolution_m", std::to_string(options.surface.resolution_m) } };
   model.cloud = std::move(fused.cloud);
   model.mesh = std::move(surface.mesh);
   model.preview_bgr = surface::renderFourSides(model.mesh);
