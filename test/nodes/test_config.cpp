@@ -7,8 +7,8 @@
 #include "nodes/segmenter/segmenter_options.h"
 #include "yaml_parameters.h"
 
-// Each shipped config/<node>.yaml is read by the node's own loader, holds every key, and says what the options' defaults
-// say: the nodes and the command line, which reads no YAML, give the same results.
+// Each shipped config/<node>.yaml is read by the node's own loader, holds every key, and says what the options'
+// defaults say: the nodes and the command line, which reads no YAML, give the same results.
 namespace object_modelling::nodes
 {
 namespace
@@ -57,10 +57,22 @@ void expectDefaults(const std::string& node)
 }
 }  // namespace
 
-TEST(Config, Segmenter) { expectDefaults<SegmenterOptions>("segmenter"); }
-TEST(Config, Refiner) { expectDefaults<RefinerOptions>("refiner"); }
-TEST(Config, SessionAligner) { expectDefaults<SessionAlignerOptions>("session_aligner"); }
-TEST(Config, ModelBuilder) { expectDefaults<ModelBuilderOptions>("model_builder"); }
+TEST(Config, Segmenter)
+{
+  expectDefaults<SegmenterOptions>("segmenter");
+}
+TEST(Config, Refiner)
+{
+  expectDefaults<RefinerOptions>("refiner");
+}
+TEST(Config, SessionAligner)
+{
+  expectDefaults<SessionAlignerOptions>("session_aligner");
+}
+TEST(Config, ModelBuilder)
+{
+  expectDefaults<ModelBuilderOptions>("model_builder");
+}
 
 TEST(Config, MistakesAreListedTogether)
 {

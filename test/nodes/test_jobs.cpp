@@ -103,7 +103,8 @@ protected:
     goal.session_id = session_id;
     return Job<object_modelling::SegmentSessionAction>("segmenter/segment_session").run(goal);
   }
-  object_modelling::RefineResult refine(const std::vector<std::string>& session_ids, const std::string& node = "refiner")
+  object_modelling::RefineResult refine(const std::vector<std::string>& session_ids,
+                                        const std::string& node = "refiner")
   {
     object_modelling::RefineGoal goal;
     goal.session_ids = session_ids;
@@ -115,7 +116,8 @@ protected:
     goal.session_ids = session_ids;
     return Job<object_modelling::AlignAction>("session_aligner/align").run(goal);
   }
-  object_modelling::BuildResult build(const object_modelling::BuildGoal& goal, const std::string& node = "model_builder")
+  object_modelling::BuildResult build(const object_modelling::BuildGoal& goal,
+                                      const std::string& node = "model_builder")
   {
     return Job<object_modelling::BuildAction>(node + "/build").run(goal);
   }
@@ -131,8 +133,8 @@ protected:
   ros_bridge::RemoteSessionStore store_;
 };
 
-#define EXPECT_STATUS(expected, part, actual)                                                 \
-  EXPECT_EQ((actual).status.code, (expected)) << (actual).status.message;                     \
+#define EXPECT_STATUS(expected, part, actual)                             \
+  EXPECT_EQ((actual).status.code, (expected)) << (actual).status.message; \
   EXPECT_NE((actual).status.message.find(part), std::string::npos) << (actual).status.message
 }  // namespace
 
@@ -217,8 +219,8 @@ TEST_F(JobsTest, FromSessionToObject)
   EXPECT_EQ(objects.objects[0].name, "A box");
   EXPECT_EQ(objects.objects[0].session_ids, std::vector<std::string>{ "round" });
 
-  const auto preview = ros::topic::waitForMessage<sensor_msgs::PointCloud2>("model_builder/model", node_,
-                                                                             ros::Duration(PATIENCE_S));
+  const auto preview =
+      ros::topic::waitForMessage<sensor_msgs::PointCloud2>("model_builder/model", node_, ros::Duration(PATIENCE_S));
   ASSERT_TRUE(preview);
   EXPECT_EQ(preview->width, result.built.vertex_count);
   EXPECT_EQ(preview->header.frame_id, "session");

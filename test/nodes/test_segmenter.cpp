@@ -264,8 +264,7 @@ TEST_F(SegmenterTest, MasksFollowTheChosenObjectThroughKeyframes)
   for (int id = 0; id < 3; ++id)
   {
     const Eigen::Isometry3d T_world_camera = test_support::orbitPose(TARGET, 0.7, 0.2 * id, 0.7);
-    const test_support::SceneImage image =
-        test_support::renderScene(scene, test_support::vgaCamera(), T_world_camera);
+    const test_support::SceneImage image = test_support::renderScene(scene, test_support::vgaCamera(), T_world_camera);
     rgbd::Keyframe keyframe;
     keyframe.id = id;
     keyframe.frame = image.frame;

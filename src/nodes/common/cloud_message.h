@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <Eigen/Core>
 #include <sensor_msgs/PointCloud2.h>
+#include <Eigen/Core>
 
 namespace object_modelling::nodes
 {

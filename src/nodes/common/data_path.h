@@ -4,7 +4,8 @@
 
 namespace object_modelling::nodes
 {
-/// A path from a parameter: "~/" stands for the home folder; empty for `name` in the folder object_modelling of ROS_HOME
+/// A path from a parameter: "~/" stands for the home folder; empty for `name` in the folder object_modelling of
+/// ROS_HOME
 /// (~/.ros).
 std::string dataPath(const std::string& path, const std::string& name);
 

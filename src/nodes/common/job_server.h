@@ -15,8 +15,8 @@
 namespace object_modelling::nodes
 {
 /// A long job as an action: one at a time, on a thread of its own; a second goal is rejected with the reason instead of
-/// pushing the first one aside. Its result begins with `status`; what the work throws becomes that status. Progress goes
-/// out as feedback and on the latched ~progress. The destructor cancels the job and waits for it.
+/// pushing the first one aside. Its result begins with `status`; what the work throws becomes that status. Progress
+/// goes out as feedback and on the latched ~progress. The destructor cancels the job and waits for it.
 template <typename Action>
 class JobServer
 {
@@ -29,12 +29,12 @@ public:
   using GoalHandle = typename Server::GoalHandle;
 
   JobServer(ros::NodeHandle& private_node, const std::string& name, Describe describe, Work work)
-    : describe_(std::move(describe))
-    , work_(std::move(work))
-    , progress_(private_node)
-    , server_(
-          private_node, name, [this](GoalHandle goal) { accept(goal); }, [this](GoalHandle goal) { cancel(goal); },
-          false)
+      : describe_(std::move(describe)),
+        work_(std::move(work)),
+        progress_(private_node),
+        server_(
+            private_node, name, [this](GoalHandle goal) { accept(goal); }, [this](GoalHandle goal) { cancel(goal); },
+            false)
   {
     server_.start();
   }

@@ -12,7 +12,7 @@ constexpr double MIN_INTERVAL_S = 0.05;
 }
 
 ProgressPublisher::ProgressPublisher(ros::NodeHandle& private_node)
-  : publisher_(private_node.advertise<object_modelling::Progress>("progress", 10, true))
+    : publisher_(private_node.advertise<object_modelling::Progress>("progress", 10, true))
 {
 }
 

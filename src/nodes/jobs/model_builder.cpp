@@ -73,14 +73,14 @@ object_modelling::BuiltObject toMessage(const pipeline::BuildReport& report, con
 }  // namespace
 
 ModelBuilder::ModelBuilder(ros::NodeHandle& node, ros::NodeHandle& private_node, const ModelBuilderOptions& options)
-  : options_(options)
-  , database_path_(dataPath(options.database_path, "objects"))
-  , store_(node, options.store)
-  , preview_(private_node, options.session_frame_id)
-  , list_objects_(private_node.advertiseService("list_objects", &ModelBuilder::listObjects, this))
-  , server_(
-        private_node, "build", [](const object_modelling::BuildGoal& goal) { return "build " + goal.object_id; },
-        [this](const object_modelling::BuildGoal& goal, base::JobControl& control) { return build(goal, control); })
+    : options_(options),
+      database_path_(dataPath(options.database_path, "objects")),
+      store_(node, options.store),
+      preview_(private_node, options.session_frame_id),
+      list_objects_(private_node.advertiseService("list_objects", &ModelBuilder::listObjects, this)),
+      server_(
+          private_node, "build", [](const object_modelling::BuildGoal& goal) { return "build " + goal.object_id; },
+          [this](const object_modelling::BuildGoal& goal, base::JobControl& control) { return build(goal, control); })
 {
 }
 
@@ -106,15 +106,19 @@ object_modelling::BuildResult ModelBuilder::build(const object_modelling::BuildG
   return result;
 }
 
-bool ModelBuilder::listObjects(object_modelling::ListObjects::Request&, object_modelling::ListObjects::Response& response)
+bool ModelBuilder::listObjects(object_modelling::ListObjects::Request&,
+                               object_modelling::ListObjects::Response& response)
 {
-  return ros_bridge::answer(response, [&] {
-    response.database_path = database_path_;
-    if (!std::filesystem::exists(database_path_))
-      return;  // made by the first build
-    for (const database::ObjectEntry& entry : database::ObjectDatabase(database_path_, false).list())
-      response.objects.push_back(toMessage(entry));
-  });
+  return ros_bridge::answer(
+      response,
+      [&]
+      {
+        response.database_path = database_path_;
+        if (!std::filesystem::exists(database_path_))
+          return;  // made by the first build
+        for (const database::ObjectEntry& entry : database::ObjectDatabase(database_path_, false).list())
+          response.objects.push_back(toMessage(entry));
+      });
 }
 
 }  // namespace object_modelling::nodes

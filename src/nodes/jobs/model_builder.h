@@ -9,8 +9,9 @@
 
 namespace object_modelling::nodes
 {
-/// Node model_builder: action ~build, service ~list_objects, previews ~model and ~model_mesh. The database is opened for
-/// every call: a folder that cannot be used is a Status, not the end of the node, and works once it has been mended.
+/// Node model_builder: action ~build, service ~list_objects, previews ~model and ~model_mesh. The database is opened
+/// for every call: a folder that cannot be used is a Status, not the end of the node, and works once it has been
+/// mended.
 class ModelBuilder
 {
 public:

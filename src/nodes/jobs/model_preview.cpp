@@ -46,9 +46,9 @@ visualization_msgs::Marker meshMarker(const geometry::TriangleMesh& mesh, const 
 }  // namespace
 
 ModelPreview::ModelPreview(ros::NodeHandle& private_node, const std::string& session_frame_id)
-  : session_frame_id_(session_frame_id)
-  , cloud_(private_node.advertise<sensor_msgs::PointCloud2>("model", 1, true))
-  , mesh_(private_node.advertise<visualization_msgs::Marker>("model_mesh", 1, true))
+    : session_frame_id_(session_frame_id),
+      cloud_(private_node.advertise<sensor_msgs::PointCloud2>("model", 1, true)),
+      mesh_(private_node.advertise<visualization_msgs::Marker>("model_mesh", 1, true))
 {
 }
 

@@ -53,12 +53,12 @@ object_modelling::SessionRefinement toMessage(const std::string& session_id,
 }  // namespace
 
 Refiner::Refiner(ros::NodeHandle& node, ros::NodeHandle& private_node, const RefinerOptions& options)
-  : options_(options)
-  , store_(node, options.store)
-  , server_(
-        private_node, "refine",
-        [](const object_modelling::RefineGoal& goal) { return "refine " + joined(goal.session_ids); },
-        [this](const object_modelling::RefineGoal& goal, base::JobControl& control) { return refine(goal, control); })
+    : options_(options),
+      store_(node, options.store),
+      server_(
+          private_node, "refine",
+          [](const object_modelling::RefineGoal& goal) { return "refine " + joined(goal.session_ids); },
+          [this](const object_modelling::RefineGoal& goal, base::JobControl& control) { return refine(goal, control); })
 {
 }
 

@@ -23,11 +23,11 @@ object_modelling::AlignmentEdge toMessage(const alignment::AlignmentEdge& edge)
 
 SessionAligner::SessionAligner(ros::NodeHandle& node, ros::NodeHandle& private_node,
                                const SessionAlignerOptions& options)
-  : store_(node, options.store)
-  , server_(
-        private_node, "align",
-        [](const object_modelling::AlignGoal& goal) { return "align " + joined(goal.session_ids); },
-        [this](const object_modelling::AlignGoal& goal, base::JobControl& control) { return align(goal, control); })
+    : store_(node, options.store),
+      server_(
+          private_node, "align",
+          [](const object_modelling::AlignGoal& goal) { return "align " + joined(goal.session_ids); },
+          [this](const object_modelling::AlignGoal& goal, base::JobControl& control) { return align(goal, control); })
 {
 }
 

@@ -5,9 +5,9 @@
 namespace object_modelling::nodes
 {
 HypothesesPublisher::HypothesesPublisher(ros::NodeHandle& private_node)
-  : hypotheses_(private_node.advertise<object_modelling::Hypotheses>("hypotheses", 1))
-  , markers_(private_node.advertise<visualization_msgs::MarkerArray>("hypotheses_markers", 1))
-  , cloud_(private_node.advertise<sensor_msgs::PointCloud2>("hypotheses_cloud", 1))
+    : hypotheses_(private_node.advertise<object_modelling::Hypotheses>("hypotheses", 1)),
+      markers_(private_node.advertise<visualization_msgs::MarkerArray>("hypotheses_markers", 1)),
+      cloud_(private_node.advertise<sensor_msgs::PointCloud2>("hypotheses_cloud", 1))
 {
 }
 

@@ -3,7 +3,7 @@
 namespace object_modelling::nodes
 {
 LiveMasks::LiveMasks(const segmentation::ObjectMaskPropagatorOptions& options, bool automatic)
-  : options_(options), automatic_(automatic), segmenter_(options.segmenter)
+    : options_(options), automatic_(automatic), segmenter_(options.segmenter)
 {
 }
 
@@ -36,8 +36,8 @@ base::Result<cv::Mat> LiveMasks::begin(const rgbd::Keyframe& keyframe, Selection
   return { {}, segmentation.hypotheses[static_cast<std::size_t>(chosen.value)].mask };
 }
 
-base::Result<int> LiveMasks::choose(const rgbd::Keyframe& keyframe,
-                                    const segmentation::SceneSegmentation& segmentation, Selection* selection) const
+base::Result<int> LiveMasks::choose(const rgbd::Keyframe& keyframe, const segmentation::SceneSegmentation& segmentation,
+                                    Selection* selection) const
 {
   const base::Result<int> found = selection->find(segmentation, session_id_, keyframe.T_session_camera);
   if (found.ok() || selection->seed(session_id_) || !automatic_)

@@ -14,7 +14,7 @@ constexpr int QUEUE_SIZE = 5;
 }
 
 NewestFrame::NewestFrame(ros::NodeHandle& node, const rgbd::FrameBuilderOptions& options)
-  : builder_(options), pairer_(options.max_stamp_difference_s, false)
+    : builder_(options), pairer_(options.max_stamp_difference_s, false)
 {
   subscribe<sensor_msgs::Image>(node, names::COLOR, &FramePairer::addColor);
   subscribe<sensor_msgs::Image>(node, names::DEPTH, &FramePairer::addDepth);
@@ -28,11 +28,12 @@ void NewestFrame::subscribe(ros::NodeHandle& node, const char* topic,
   const std::string resolved = node.resolveName(topic);
   heard_[resolved] = false;
   const boost::function<void(const boost::shared_ptr<const Message>&)> take =
-      [this, resolved, add](const boost::shared_ptr<const Message>& message) {
-        heard_[resolved] = true;
-        if (std::optional<FrameMessages> frame = (pairer_.*add)(message))
-          newest_ = std::move(frame);
-      };
+      [this, resolved, add](const boost::shared_ptr<const Message>& message)
+  {
+    heard_[resolved] = true;
+    if (std::optional<FrameMessages> frame = (pairer_.*add)(message))
+      newest_ = std::move(frame);
+  };
   subscribers_.push_back(node.subscribe<Message>(topic, QUEUE_SIZE, take));
 }
 
@@ -50,13 +51,15 @@ base::Result<StampedFrame> NewestFrame::get()
     return result;
   }
   result.value.header = newest_->color->header;
-  result.status = ros_bridge::guarded([&] {
-    base::Result<rgbd::Frame> frame = builder_.build(ros_bridge::rawFrameFromMessages(
-        *newest_->color, *newest_->depth, *newest_->info, ros_bridge::ImageKind::RECTIFIED));
-    if (!frame.ok())
-      throw base::Error(frame.status.code, frame.status.message);
-    result.value.frame = std::move(frame.value);
-  });
+  result.status = ros_bridge::guarded(
+      [&]
+      {
+        base::Result<rgbd::Frame> frame = builder_.build(ros_bridge::rawFrameFromMessages(
+            *newest_->color, *newest_->depth, *newest_->info, ros_bridge::ImageKind::RECTIFIED));
+        if (!frame.ok())
+          throw base::Error(frame.status.code, frame.status.message);
+        result.value.frame = std::move(frame.value);
+      });
   return result;
 }
 

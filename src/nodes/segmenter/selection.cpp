@@ -55,7 +55,8 @@ void Selection::applyRoi(const std::optional<Eigen::Isometry3d>& T_session_camer
   auto& hypotheses = segmentation->hypotheses;
   const std::size_t count = hypotheses.size();
   hypotheses.erase(std::remove_if(hypotheses.begin(), hypotheses.end(),
-                                  [&](const segmentation::Hypothesis& hypothesis) {
+                                  [&](const segmentation::Hypothesis& hypothesis)
+                                  {
                                     const Eigen::Vector3d& p_camera = hypothesis.centroid_camera;
                                     return !roi_->box.contains(in_session ? *T_session_camera * p_camera : p_camera);
                                   }),

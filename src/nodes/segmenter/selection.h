@@ -10,8 +10,8 @@
 namespace object_modelling::nodes
 {
 /// What the user has chosen, over views and sessions: the object as a point, and the region of interest as a box. Both
-/// are kept in the session frame while a session is recorded, before that in the camera's frame, which then has to stand
-/// still until the first keyframe. Free of ROS. Not thread safe.
+/// are kept in the session frame while a session is recorded, before that in the camera's frame, which then has to
+/// stand still until the first keyframe. Free of ROS. Not thread safe.
 class Selection
 {
 public:
@@ -44,8 +44,8 @@ private:
   };
 
   double margin_m_;
-  std::optional<Eigen::Vector3d> pending_camera_;       // chosen while no session was recorded
-  std::map<std::string, Eigen::Vector3d> p_session_;    // by session
+  std::optional<Eigen::Vector3d> pending_camera_;     // chosen while no session was recorded
+  std::map<std::string, Eigen::Vector3d> p_session_;  // by session
   std::optional<Roi> roi_;
 };
 

@@ -22,14 +22,13 @@ Eigen::Isometry3d fromTransform(const geometry_msgs::TransformStamped& target_fr
 }  // namespace
 
 SessionFrame::SessionFrame(ros::NodeHandle& node, const std::string& frame_id, double tf_timeout_s)
-  : frame_id_(frame_id)
-  , tf_timeout_(tf_timeout_s)
-  , listener_(buffer_, node)
-  , state_(node.subscribe<object_modelling::TrackingState>(
-        std::string(names::CAMERA_TRACKER) + "/" + names::STATE, 1,
-        [this](const object_modelling::TrackingStateConstPtr& state) {
-          recorded_ = state->recording ? state->session_id : std::string();
-        }))
+    : frame_id_(frame_id),
+      tf_timeout_(tf_timeout_s),
+      listener_(buffer_, node),
+      state_(node.subscribe<object_modelling::TrackingState>(
+          std::string(names::CAMERA_TRACKER) + "/" + names::STATE, 1,
+          [this](const object_modelling::TrackingStateConstPtr& state)
+          { recorded_ = state->recording ? state->session_id : std::string(); }))
 {
 }
 
@@ -71,14 +70,16 @@ Eigen::Isometry3d SessionFrame::T_camera_source(const std_msgs::Header& source, 
   try
   {
     // Between two times the camera moves and the session frame, which is fixed to the object's support, does not.
-    return fromTransform(same_time ? buffer_.lookupTransform(camera.frame_id, source.frame_id, camera.stamp, tf_timeout_)
-                                   : buffer_.lookupTransform(camera.frame_id, camera.stamp, source.frame_id,
-                                                             source.stamp, frame_id_, tf_timeout_));
+    return fromTransform(same_time
+                             ? buffer_.lookupTransform(camera.frame_id, source.frame_id, camera.stamp, tf_timeout_)
+                             : buffer_.lookupTransform(camera.frame_id, camera.stamp, source.frame_id, source.stamp,
+                                                       frame_id_, tf_timeout_));
   }
   catch (const tf2::TransformException& error)
   {
-    throw base::Error(base::StatusCode::FAILED_PRECONDITION, "tf cannot tell where frame '" + source.frame_id +
-                                                                 "' is from '" + camera.frame_id + "': " + error.what());
+    throw base::Error(
+        base::StatusCode::FAILED_PRECONDITION,
+        "tf cannot tell where frame '" + source.frame_id + "' is from '" + camera.frame_id + "': " + error.what());
   }
 }
 

@@ -3,13 +3,13 @@
 #include <optional>
 #include <string>
 
-#include <Eigen/Geometry>
 #include <geometry_msgs/PointStamped.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <object_modelling/TrackingState.h>
 #include <ros/node_handle.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
+#include <Eigen/Geometry>
 
 namespace object_modelling::nodes
 {
