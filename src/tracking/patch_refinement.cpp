@@ -14,21 +14,23 @@ constexpr int SIDE = 2 * HALF + 1;
 constexpr int AREA = SIDE * SIDE;
 constexpr int BORDERED = SIDE + 2;
 
-/// Warped reference patch with its gradient.
+using Values =
+    Eigen::Matrix<float, AREA, 1>;  // Eigen sums it four at a time, in an order of its own but always the same
+
+/// Warped reference patch, without its mean, with its gradient.
 struct Template
 {
-  std::array<float, AREA> value;
-  std::array<float, AREA> gradient_x;
-  std::array<float, AREA> gradient_y;
+  Values value, gradient_x, gradient_y;
+  float variance = 0;  ///< sum of squares of `value`
 };
 
 /// Bilinear value; false outside the image.
 bool sample(const cv::Mat& image, double u, double v, float* value)
 {
-  const int iu = static_cast<int>(std::floor(u));
-  const int iv = static_cast<int>(std::floor(v));
-  if (!(iu >= 0 && iv >= 0 && iu + 1 < image.cols && iv + 1 < image.rows))
+  if (!(u >= 0 && v >= 0 && u < image.cols - 1 && v < image.rows - 1))
     return false;
+  const int iu = static_cast<int>(u);
+  const int iv = static_cast<int>(v);
   const auto a = static_cast<float>(u - iu);
   const auto b = static_cast<float>(v - iv);
   const std::uint8_t* upper = image.ptr<std::uint8_t>(iv) + iu;
@@ -42,28 +44,31 @@ bool warpTemplate(const cv::Mat& reference, double reference_scale, double curre
                   const Eigen::Matrix3d& H_reference_current, const Eigen::Vector2d& centre, Template* patch)
 {
   std::array<float, BORDERED * BORDERED> bordered;
+  // cv::pyrDown puts pixel u of a level on pixel 2 u of the level below.
+  const Eigen::Vector3d step_x = current_scale * H_reference_current.col(0);
   for (int y = 0; y < BORDERED; ++y)
-    for (int x = 0; x < BORDERED; ++x)
+  {
+    Eigen::Vector3d mapped = H_reference_current * Eigen::Vector3d((centre.x() - HALF - 1) * current_scale,
+                                                                   (centre.y() + y - HALF - 1) * current_scale, 1);
+    for (int x = 0; x < BORDERED; ++x, mapped += step_x)
     {
-      // cv::pyrDown puts pixel u of a level on pixel 2 u of the level below.
-      const Eigen::Vector3d at((centre.x() + x - HALF - 1) * current_scale, (centre.y() + y - HALF - 1) * current_scale,
-                               1);
-      const Eigen::Vector3d mapped = H_reference_current * at;
       if (!(mapped.z() > 1e-9))
         return false;
-      const double u = mapped.x() / mapped.z() / reference_scale;
-      const double v = mapped.y() / mapped.z() / reference_scale;
-      if (!sample(reference, u, v, &bordered[y * BORDERED + x]))
+      const double to_pixel = 1 / (mapped.z() * reference_scale);
+      if (!sample(reference, mapped.x() * to_pixel, mapped.y() * to_pixel, &bordered[y * BORDERED + x]))
         return false;
     }
+  }
   for (int y = 0; y < SIDE; ++y)
     for (int x = 0; x < SIDE; ++x)
     {
       const float* at = &bordered[(y + 1) * BORDERED + x + 1];
-      patch->value[y * SIDE + x] = at[0];
-      patch->gradient_x[y * SIDE + x] = 0.5F * (at[1] - at[-1]);
-      patch->gradient_y[y * SIDE + x] = 0.5F * (at[BORDERED] - at[-BORDERED]);
+      patch->value(y * SIDE + x) = at[0];
+      patch->gradient_x(y * SIDE + x) = 0.5F * (at[1] - at[-1]);
+      patch->gradient_y(y * SIDE + x) = 0.5F * (at[BORDERED] - at[-BORDERED]);
     }
+  patch->value.array() -= patch->value.mean();
+  patch->variance = patch->value.squaredNorm();
   return true;
 }
 
@@ -93,42 +98,36 @@ bool sampleWindow(const cv::Mat& image, const Eigen::Vector2d& centre, std::arra
 bool solveStep(const Template& patch, const std::array<float, BORDERED * BORDERED>& window, Eigen::Vector2d* step,
                float* correlation)
 {
-  float sum_t = 0, sum_i = 0, sum_tt = 0, sum_ii = 0, sum_ti = 0;
+  Values value, gradient_x, gradient_y;
   for (int y = 0; y < SIDE; ++y)
     for (int x = 0; x < SIDE; ++x)
     {
-      const float t = patch.value[y * SIDE + x];
-      const float i = window[(y + 1) * BORDERED + x + 1];
-      sum_t += t, sum_i += i, sum_tt += t * t, sum_ii += i * i, sum_ti += t * i;
+      const float* w = &window[(y + 1) * BORDERED + x + 1];
+      value(y * SIDE + x) = w[0];
+      gradient_x(y * SIDE + x) = 0.5F * (w[1] - w[-1]);
+      gradient_y(y * SIDE + x) = 0.5F * (w[BORDERED] - w[-BORDERED]);
     }
-  const float variance_t = sum_tt - sum_t * sum_t / AREA;
-  const float variance_i = sum_ii - sum_i * sum_i / AREA;
-  const float covariance = sum_ti - sum_t * sum_i / AREA;
-  if (!(variance_t > 1 && variance_i > 1))
+  value.array() -= value.mean();
+  const float variance_i = value.squaredNorm();
+  const float covariance = value.dot(patch.value);
+  if (!(patch.variance > 1 && variance_i > 1))
     return false;
-  *correlation = covariance / std::sqrt(variance_t * variance_i);
+  *correlation = covariance / std::sqrt(patch.variance * variance_i);
   // Least-squares gain and bias for the shift as it is; the shift is then solved for with their directions projected
   // out.
-  const float gain = covariance / variance_t;
-  const float mean_t = sum_t / AREA;
-  const float mean_i = sum_i / AREA;
-  float gxx = 0, gxy = 0, gyy = 0, rx = 0, ry = 0, gxt = 0, gyt = 0, gx1 = 0, gy1 = 0;
-  for (int y = 0; y < SIDE; ++y)
-    for (int x = 0; x < SIDE; ++x)
-    {
-      const int at = y * SIDE + x;
-      const float* w = &window[(y + 1) * BORDERED + x + 1];
-      const float t = patch.value[at] - mean_t;
-      const float residual = (w[0] - mean_i) - gain * t;
-      const float gx = 0.5F * (gain * patch.gradient_x[at] + 0.5F * (w[1] - w[-1]));
-      const float gy = 0.5F * (gain * patch.gradient_y[at] + 0.5F * (w[BORDERED] - w[-BORDERED]));
-      gxx += gx * gx, gxy += gx * gy, gyy += gy * gy;
-      rx += gx * residual, ry += gy * residual;
-      gxt += gx * t, gyt += gy * t, gx1 += gx, gy1 += gy;
-    }
+  const float gain = covariance / patch.variance;
+  value -= gain * patch.value;
+  gradient_x = 0.5F * (gain * patch.gradient_x + gradient_x);
+  gradient_y = 0.5F * (gain * patch.gradient_y + gradient_y);
+  gradient_x.array() -= gradient_x.mean();
+  gradient_y.array() -= gradient_y.mean();
+  const float gxt = gradient_x.dot(patch.value);
+  const float gyt = gradient_y.dot(patch.value);
+  const float rx = gradient_x.dot(value);
+  const float ry = gradient_y.dot(value);
   Eigen::Matrix2d A;
-  A << gxx - gxt * gxt / variance_t - gx1 * gx1 / AREA, gxy - gxt * gyt / variance_t - gx1 * gy1 / AREA, 0,
-      gyy - gyt * gyt / variance_t - gy1 * gy1 / AREA;
+  A << gradient_x.squaredNorm() - gxt * gxt / patch.variance, gradient_x.dot(gradient_y) - gxt * gyt / patch.variance,
+      0, gradient_y.squaredNorm() - gyt * gyt / patch.variance;
   A(1, 0) = A(0, 1);
   const double determinant = A.determinant();
   const double trace = A.trace();
