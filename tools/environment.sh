@@ -39,7 +39,11 @@ install_missing() {
 build() {
   mkdir -p "$build_dir"
   local launcher=() log="$build_dir/configure.log"
-  command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  if command -v ccache >/dev/null; then
+    launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    # Relative paths in the cache's keys: another clone of the same tree finds what this one compiled.
+    export CCACHE_BASEDIR="$root" CCACHE_NOHASHDIR=1
+  fi
   if [ ! -f "$build_dir/build.ninja" ] || [ "${#cmake_arguments[@]}" -gt 0 ]; then
     echo "Configuring in $build_dir"
     # An own PATH for the build: a pyenv or venv python3 knows nothing of ROS.
