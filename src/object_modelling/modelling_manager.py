@@ -108,11 +108,19 @@ class ModellingManager:
                 recording = self._state.is_recording(session_id)
             if recording:
                 self._end_recording(session_id)
-            self._jobs.delete_session(session_id=session_id)
+            self._delete(session_id, may_be_missing=recording)
             with self._lock:
                 self._state.discarded(session_id)
                 self._succeeded()
         return srv.DiscardSessionResponse(session_id=session_id)
+
+    def _delete(self, session_id, may_be_missing):
+        """A session that was begun is in the store from its first keyframe on."""
+        try:
+            self._jobs.delete_session(session_id=session_id)
+        except Failure as failure:
+            if failure.code != Code.NOT_FOUND or not may_be_missing:
+                raise
 
     def _end_recording(self, session_id):
         with self._lock:

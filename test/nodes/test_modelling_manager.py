@@ -99,7 +99,9 @@ class RecordingTest(ManagerTest):
         self.assertEqual(self.recording.recording, "")
         self.refused(Code.NOT_FOUND, "no such session", "discard_session", srv.DiscardSession, session_id="s1")
         self.start("s2")
-        self.stop()
+        del self.recording.sessions["s2"]  # no keyframe yet, so nothing in the store
+        self.succeed("discard_session", srv.DiscardSession)
+        self.wait_until(lambda: self.state.state == ManagerState.IDLE, "idle")
 
     def test_reason_of_the_tracker_is_passed_on(self):
         self.recording.add("s1")
