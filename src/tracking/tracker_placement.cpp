@@ -15,8 +15,9 @@ namespace
 constexpr double MAX_SPEED_M_PER_S = 4.0;
 constexpr double MAX_ANGULAR_SPEED_RAD_PER_S = 12.0;
 constexpr double RECOGNITION_ERROR_PX = 4.0;
+constexpr double MAX_FLOW_GAP_S = 0.2;
 constexpr double FLOW_PREDICTION_ERROR_PX = 1.5;
-constexpr double TRUSTED_RMSE_RATIO = 0.6;  // of the inlier gate; wrong poses fill the gate evenly, which gives 0.7
+constexpr double TRUSTED_RMSE_RATIO = 0.5;  // of the inlier gate; wrong poses fill the gate evenly, which gives 0.7
 
 std::vector<LandmarkMatch> inliersOf(const std::vector<LandmarkMatch>& matches, const PoseEstimate& pose)
 {
@@ -55,9 +56,11 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByF
                                                                                     const ImagePyramid& pyramid) const
 {
   Placement placement;
-  if (last_inliers_.empty() || !motion_.last())
+  // Flow across a longer loss finds accidental fits; only recognition, which is verified, ends it.
+  const bool interrupted = lost_ && frame.stamp_s - last_placed_s_ > MAX_FLOW_GAP_S;
+  if (last_inliers_.empty() || !motion_.last() || interrupted)
   {
-    placement.reason = "no landmarks were followed into this frame";
+    placement.reason = "no landmarks to follow into this frame";
     return placement;
   }
   const Eigen::Isometry3d T_session_predicted = *motion_.predict(frame.stamp_s);
@@ -139,7 +142,8 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByM
       if (flow_pixels.count(match.landmark_id) > 0)
         found.matches.push_back(match);
   }
-  if (countTrusted(found.matches) >= 2 * options_.min_inliers)
+  // What was placed in doubt has no say where others suffice, and none in where a lost camera is.
+  if (flow.empty() || countTrusted(found.matches) >= 2 * options_.min_inliers)
     found.matches.erase(std::remove_if(found.matches.begin(), found.matches.end(),
                                        [](const LandmarkMatch& match) { return !match.trusted; }),
                         found.matches.end());
@@ -154,7 +158,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByM
     return placement;
   }
   placement.inliers = inliersOf(found.matches, placement.pose);
-  placement.trusted = countTrusted(placement.inliers) >= options_.min_inliers &&
+  placement.trusted = countTrusted(placement.inliers) == placement.pose.inlier_count &&
                       placement.pose.reprojection_rmse_px <= TRUSTED_RMSE_RATIO * options_.max_reprojection_error_px;
   return placement;
 }
