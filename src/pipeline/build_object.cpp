@@ -143,11 +143,13 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
   base::checked(options);
   BuildReport report;
   StageTimer timer(&report.stage_s);
-  if (!keyframes::isValidId(object_id))
+  try
   {
-    report.status = { base::StatusCode::INVALID_ARGUMENT,
-                      "object id '" + object_id +
-                          "': must be 1 to 64 of A-Z a-z 0-9 _ . - and start with a letter or digit" };
+    database::checkObjectId(object_id);  // now, not after all the work
+  }
+  catch (const base::Error& error)
+  {
+    report.status = error.status();
     return report;
   }
   if (placements.empty())

@@ -42,7 +42,8 @@ geometry::OrientedBox objectBox(const std::vector<Eigen::Vector3f>& points_refer
   geometry::OrientedBox box = geometry::boxAlong(support_plane_reference->normal, points_reference);
   const Eigen::Vector3d bottom = box.T_frame_box * Eigen::Vector3d(0, 0, -box.size_m.z() / 2);
   const double gap_m = support_plane_reference->signedDistance_m(bottom);
-  if (std::abs(gap_m) <= MAX_FOOT_GAP_M)
+  // A flat object that noise has put wholly below the plane keeps its own height.
+  if (std::abs(gap_m) <= MAX_FOOT_GAP_M && box.size_m.z() + gap_m > 0)
   {
     box.size_m.z() += gap_m;
     box.T_frame_box.translation() -= support_plane_reference->normal * gap_m / 2;
