@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glog/logging.h>
 
@@ -131,7 +132,10 @@ private:
   void findLinks()
   {
     const Eigen::MatrixXi shared = sharedLandmarks(tracked_, keyframes_.size());
-    links_ = linkKeyframes(keyframes_, shared, ENOUGH_SHARED, linkerOptions(options_), *control_);
+    // An object fills a small part of the view and turns in large steps: there no number of tracked landmarks is
+    // enough.
+    const int enough_shared = options_.object_only ? std::numeric_limits<int>::max() : ENOUGH_SHARED;
+    links_ = linkKeyframes(keyframes_, shared, enough_shared, linkerOptions(options_), *control_);
     for (const VerifiedLink& link : links_)
       link_edges_.push_back(edgeOfLink(link, keyframes_));
   }
