@@ -1,4 +1,7 @@
+#include <unistd.h>
+
 #include <csignal>
+#include <cstdio>
 #include <iostream>
 
 #include <glog/logging.h>
@@ -23,6 +26,28 @@ void cancelRunningJob(int)
   running_job->cancel();
 }
 
+/// While it lives, what libraries print on stdout (PCL's Poisson does) goes to stderr: stdout is for results alone.
+class StdoutToStderr
+{
+public:
+  StdoutToStderr() : stdout_(dup(STDOUT_FILENO)) { dup2(STDERR_FILENO, STDOUT_FILENO); }
+  ~StdoutToStderr()
+  {
+    std::fflush(stdout);
+    dup2(stdout_, STDOUT_FILENO);
+    close(stdout_);
+  }
+
+private:
+  int stdout_;
+};
+
+cli::CommandOutput runQuietly(const cli::Command& command, base::JobControl& control)
+{
+  const StdoutToStderr guard;
+  return command(control);
+}
+
 int execute(const cli::Command& command, bool json, bool quiet)
 {
   cli::ProgressLine line(!quiet);
@@ -33,7 +58,7 @@ int execute(const cli::Command& command, bool json, bool quiet)
   base::Status status;
   try
   {
-    const cli::CommandOutput output = command(control);
+    const cli::CommandOutput output = runQuietly(command, control);
     std::cout << (json ? output.json.dump(2) + "\n" : output.text) << std::flush;
     return 0;
   }

@@ -3,6 +3,9 @@
 import json
 import os
 import subprocess
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 
 COMMAND = os.environ["OBJECT_MODELLING_COMMAND"]
 DATA = os.environ["OBJECT_MODELLING_TEST_DATA"]

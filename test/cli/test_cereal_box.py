@@ -4,8 +4,9 @@ import os
 import tempfile
 import unittest
 
+from command import CEREAL_BOX, run_json  # first: it says where the next one is
+
 from carton import fold_thickness_m
-from command import CEREAL_BOX, run_json
 
 KNOWN_SIZE_M = (0.070, 0.200, 0.300)
 

@@ -43,7 +43,7 @@ class UsageTest(unittest.TestCase):
     def test_missing_and_foreign_recordings(self):
         missing = self.path("nowhere")
         self.assert_refused(run("track", missing), missing)
-        self.assert_refused(run("track", self.folder.name), "rgb.txt")
+        self.assert_refused(run("track", self.folder.name), self.folder.name, "camera.yaml")
         with open(self.path("notes.txt"), "w") as notes:
             notes.write("not a recording")
         self.assert_refused(run("track", self.path("notes.txt")), "notes.txt")
