@@ -47,6 +47,7 @@ stop_nodes() { kill -INT "$nodes" 2>/dev/null && wait "$nodes" 2>/dev/null || tr
 trap stop_nodes EXIT
 trap 'exit 130' INT TERM
 
+for _ in $(seq 100); do (exec 3<>"/dev/tcp/localhost/$port") 2>/dev/null && break || sleep 0.1; done
 result=0
 demo "$recording" --object-id "$object_id" || result=$?
 if [ "$result" -ne 0 ]; then

@@ -51,8 +51,13 @@ build() {
       -DOBJECT_MODELLING_WARNINGS_AS_ERRORS=ON "${launcher[@]}" "${cmake_arguments[@]}" >"$log" 2>&1 ||
       { tail -n 30 "$log" >&2; fail "configuring failed; the whole log is $log"; }
   fi
-  # Ninja's own progress line; one line where nothing is to do.
-  PATH="/usr/bin:$PATH" cmake --build "$build_dir" ${1:+--target "$1"} | { grep -v 'no work to do' || true; }
+  local command=(cmake --build "$build_dir")
+  if [ -t 1 ]; then
+    PATH="/usr/bin:$PATH" "${command[@]}"
+  else
+    # Without a terminal ninja prints a line a step; catkin checks its messages in every build.
+    PATH="/usr/bin:$PATH" "${command[@]}" | { grep --line-buffered -v 'no work to do\|genmsg_check_deps' || true; }
+  fi
 }
 
 enter() {
