@@ -28,9 +28,8 @@ void fillLowHoles(const rgbd::Frame& frame, const geometry::Plane& plane_camera,
   const int label_count = cv::connectedComponents((*mask)(rect) == 0, labels, 4, CV_32S);
   std::vector<Hole> holes(label_count);
   holes[0].open = true;  // the mask itself
-  const auto height_m = [&](int u, int v) {
-    return plane_camera.signedDistance_m(frame.point(rect.x + u, rect.y + v).cast<double>());
-  };
+  const auto height_m = [&](int u, int v)
+  { return plane_camera.signedDistance_m(frame.point(rect.x + u, rect.y + v).cast<double>()); };
   for (int v = 0; v < rect.height; ++v)
     for (int u = 0; u < rect.width; ++u)
       if (u == 0 || v == 0 || u == rect.width - 1 || v == rect.height - 1)

@@ -19,8 +19,13 @@ public:
   {
     const int row = static_cast<int>(z_m * PER_METRE);
     const int column = static_cast<int>(cos_theta * COLUMNS);
-    return sigma_[(row < 0 ? 0 : row >= ROWS ? ROWS - 1 : row) * COLUMNS +
-                  (column < 0 ? 0 : column >= COLUMNS ? COLUMNS - 1 : column)];
+    return sigma_[(row < 0       ? 0
+                   : row >= ROWS ? ROWS - 1
+                                 : row) *
+                      COLUMNS +
+                  (column < 0          ? 0
+                   : column >= COLUMNS ? COLUMNS - 1
+                                       : column)];
   }
   /// Standard deviation of a measured point along the normal `n` (unit length) of the surface that it lies on.
   float sigmaAlong_m(const Eigen::Vector3f& n, const Eigen::Vector3f& p_camera) const

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "object_modelling/base/options.h"
 #include "low_holes.h"
+#include "object_modelling/base/options.h"
 #include "object_volume.h"
 #include "smooth_clustering.h"
 #include "support_around.h"
@@ -27,24 +27,23 @@ class ObjectMaskPropagator::Implementation
 {
 public:
   explicit Implementation(const ObjectMaskPropagatorOptions& options)
-    : options_(base::checked(options)), volume_(options.voxel_size_m)
+      : options_(base::checked(options)), volume_(options.voxel_size_m)
   {
   }
 
   base::Status start(const rgbd::Keyframe& keyframe, const SceneSegmentation& segmentation, int hypothesis)
   {
     if (segmentation.support_plane < 0 || segmentation.support_plane >= static_cast<int>(segmentation.planes.size()))
-      return { base::StatusCode::FAILED_PRECONDITION,
-               "the segmentation of " + describeKeyframe(keyframe) + " has no support plane: " +
-                   segmentation.status.message };
+      return { base::StatusCode::FAILED_PRECONDITION, "the segmentation of " + describeKeyframe(keyframe) +
+                                                          " has no support plane: " + segmentation.status.message };
     if (hypothesis < 0 || hypothesis >= static_cast<int>(segmentation.hypotheses.size()))
-      return { base::StatusCode::INVALID_ARGUMENT,
-               "hypothesis " + std::to_string(hypothesis) + " is not among the " +
-                   std::to_string(segmentation.hypotheses.size()) + " of " + describeKeyframe(keyframe) };
+      return { base::StatusCode::INVALID_ARGUMENT, "hypothesis " + std::to_string(hypothesis) + " is not among the " +
+                                                       std::to_string(segmentation.hypotheses.size()) + " of " +
+                                                       describeKeyframe(keyframe) };
     const cv::Mat& mask = segmentation.hypotheses[hypothesis].mask;
     if (mask.size() != keyframe.frame.depth_m.size())
-      return { base::StatusCode::INVALID_ARGUMENT, "the segmentation is of another image size than " +
-                                                       describeKeyframe(keyframe) };
+      return { base::StatusCode::INVALID_ARGUMENT,
+               "the segmentation is of another image size than " + describeKeyframe(keyframe) };
     volume_.clear();
     volume_.add(keyframe, mask);
     support_moments_ = {};
@@ -125,9 +124,9 @@ private:
     const cv::Rect area = volume_.areaInView(keyframe, SURROUNDINGS_M);
     if (!started() || area.area() == 0)
     {
-      view.status = started() ? base::Status(base::StatusCode::NO_RESULT, "the object is out of the view of " +
-                                                                              describeKeyframe(keyframe)) :
-                                base::Status(base::StatusCode::FAILED_PRECONDITION,
+      view.status = started() ? base::Status(base::StatusCode::NO_RESULT,
+                                             "the object is out of the view of " + describeKeyframe(keyframe))
+                              : base::Status(base::StatusCode::FAILED_PRECONDITION,
                                              "no object has been chosen yet; call start() with a hypothesis first");
       return view;
     }
@@ -226,8 +225,7 @@ private:
       const auto* from = mask.ptr<std::uint8_t>(v);
       auto* to = inside.ptr<std::uint8_t>(v);
       for (int u = 0; u < mask.cols; ++u)
-        if (from[u] != 0 &&
-            volume_.contains(keyframe.T_session_camera * keyframe.frame.point(u, v).cast<double>()))
+        if (from[u] != 0 && volume_.contains(keyframe.T_session_camera * keyframe.frame.point(u, v).cast<double>()))
           to[u] = 255;
     }
     return inside;
@@ -249,7 +247,7 @@ std::vector<std::string> ObjectMaskPropagatorOptions::violations() const
 }
 
 ObjectMaskPropagator::ObjectMaskPropagator(const ObjectMaskPropagatorOptions& options)
-  : implementation_(std::make_unique<Implementation>(options))
+    : implementation_(std::make_unique<Implementation>(options))
 {
 }
 ObjectMaskPropagator::~ObjectMaskPropagator() = default;

@@ -24,12 +24,12 @@ class PlaneGrower
 {
 public:
   PlaneGrower(const WorkingImage& image, const PlaneGrowingOptions& options)
-    : image_(image)
-    , options_(options)
-    , cos_angle_(static_cast<float>(std::cos(options.angle_rad)))
-    , width_(image.frame.depth_m.cols)
-    , height_(image.frame.depth_m.rows)
-    , labels_(height_, width_, CV_16SC1, cv::Scalar(NO_PLANE))
+      : image_(image),
+        options_(options),
+        cos_angle_(static_cast<float>(std::cos(options.angle_rad))),
+        width_(image.frame.depth_m.cols),
+        height_(image.frame.depth_m.rows),
+        labels_(height_, width_, CV_16SC1, cv::Scalar(NO_PLANE))
   {
   }
 

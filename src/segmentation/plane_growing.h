@@ -14,7 +14,7 @@ struct PlaneGrowingOptions
   double angle_rad = 0.17453293;
   double distance_sigmas = 3.0;
   double distortion_ratio = 0.003;  ///< of depth: what smooth distortion bends a plane by, as a standard deviation
-  int min_pixels = 200;  ///< of the working image
+  int min_pixels = 200;             ///< of the working image
 };
 
 struct GrownPlane

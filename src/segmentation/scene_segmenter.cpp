@@ -86,9 +86,8 @@ std::vector<Hypothesis> findHypotheses(const rgbd::Frame& frame, const WorkingIm
                                        int support, const SceneSegmenterOptions& options)
 {
   const geometry::Plane& plane = planes.planes[support].plane;
-  const HeightLimits limits{ options.min_height_m,
-                             options.height_noise_sigmas * planes.planes[support].noise_scale, options.max_height_m,
-                             options.max_distance_m };
+  const HeightLimits limits{ options.min_height_m, options.height_noise_sigmas * planes.planes[support].noise_scale,
+                             options.max_height_m, options.max_distance_m };
   const double area_ratio = frame.depth_m.total() / (640.0 * 480.0);
   const int min_pixels = std::max(1, static_cast<int>(std::lround(options.min_cluster_px * area_ratio)));
   const cv::Mat above = pixelsAbove(frame, plane, limits, options.cluster_depth_step_ratio);
@@ -158,8 +157,9 @@ SceneSegmentation SceneSegmenter::segment(const rgbd::Frame& frame) const
   SceneSegmentation result;
   if (frame.depth_m.empty() || frame.depth_m.type() != CV_32FC1 || !frame.camera.violations().empty())
   {
-    result.status = { base::StatusCode::BAD_INPUT, "a frame without depth in metres or without usable intrinsics cannot "
-                                                   "be segmented" };
+    result.status = { base::StatusCode::BAD_INPUT,
+                      "a frame without depth in metres or without usable intrinsics cannot "
+                      "be segmented" };
     return result;
   }
   const WorkingImage image = makeWorkingImage(frame);
@@ -192,10 +192,10 @@ SceneSegmentation SceneSegmenter::segment(const rgbd::Frame& frame) const
       result.support_plane = pedestalOn(ranked[i], ranked, planes, frame, image, options_, &result.hypotheses);
   }
   if (result.hypotheses.empty())
-    result.status = { base::StatusCode::NO_RESULT,
-                      "no hypothesis: nothing of at least " + std::to_string(options_.min_cluster_px) +
-                          " px (at 640x480) stands on the support plane within " +
-                          std::to_string(options_.max_distance_m) + " m" };
+    result.status = { base::StatusCode::NO_RESULT, "no hypothesis: nothing of at least " +
+                                                       std::to_string(options_.min_cluster_px) +
+                                                       " px (at 640x480) stands on the support plane within " +
+                                                       std::to_string(options_.max_distance_m) + " m" };
   return result;
 }
 

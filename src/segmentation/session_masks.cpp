@@ -49,9 +49,8 @@ base::Result<Choice> chooseStart(const std::vector<rgbd::Keyframe>& keyframes, c
       continue;
     }
     const base::Result<int> chosen =
-        seed_point_session ?
-            selectByPoint(segmentation, keyframe.T_session_camera.inverse() * *seed_point_session) :
-            selectAutomatically(segmentation, keyframe.frame.camera);
+        seed_point_session ? selectByPoint(segmentation, keyframe.T_session_camera.inverse() * *seed_point_session)
+                           : selectAutomatically(segmentation, keyframe.frame.camera);
     if (!chosen.ok())
     {
       reason = chosen.status;
@@ -108,9 +107,8 @@ std::vector<int> nearestFirst(const std::vector<rgbd::Keyframe>& keyframes, int 
     {
       if (visited[i])
         continue;
-      const double d_m = (keyframes[i].T_session_camera.translation() -
-                          keyframes[current].T_session_camera.translation())
-                             .norm();
+      const double d_m =
+          (keyframes[i].T_session_camera.translation() - keyframes[current].T_session_camera.translation()).norm();
       distance_m[i] = std::min(distance_m[i], d_m);
       if (next < 0 || distance_m[i] < distance_m[next])
         next = static_cast<int>(i);
@@ -137,7 +135,8 @@ std::optional<geometry::Plane> agreedSupport(const std::vector<rgbd::Keyframe>& 
       candidates.push_back({ geometry::transformed(keyframe.T_session_camera, support->plane_camera),
                              support->moments.transformed(keyframe.T_session_camera),
                              keyframe.T_session_camera.translation() });
-  const auto agree = [&](const Candidate& a, const Candidate& b) {
+  const auto agree = [&](const Candidate& a, const Candidate& b)
+  {
     return a.plane_session.normal.dot(b.plane_session.normal) > SAME_NORMAL_COS &&
            std::abs(a.plane_session.signedDistance_m(b.moments.mean())) < SAME_OFFSET_M;
   };

@@ -154,7 +154,8 @@ Clusters clusterSmooth(const rgbd::Frame& frame, const cv::Mat& foreground, doub
         continue;
       const float z = depth_m.at<float>(v, u);
       int label = 0;
-      const auto meet = [&](int x, int y) {
+      const auto meet = [&](int x, int y)
+      {
         const int other = labels.at<int>(y, x);
         if (other == 0 || !connected(z, depth_m.at<float>(y, x), ratio))
           return;

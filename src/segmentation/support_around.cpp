@@ -13,7 +13,7 @@ namespace object_modelling::segmentation
 namespace
 {
 constexpr int MIN_POINTS = 150;
-constexpr double GATE_M = 0.004;  // distortion and pose error, on top of the noise
+constexpr double GATE_M = 0.004;         // distortion and pose error, on top of the noise
 constexpr double MAX_TILT_COS = 0.9986;  // 3 deg
 
 /// The part of the frame inside `area`, without a copy.
@@ -91,9 +91,9 @@ std::optional<LocalSupport> findSupportAround(const rgbd::Frame& frame, const cv
   if (rect.area() == 0)
     return std::nullopt;
   const int ring_px = std::max(10, static_cast<int>(RING_RATIO * std::max(rect.width, rect.height)));
-  const cv::Rect area = cv::Rect(rect.x - ring_px, rect.y - ring_px, rect.width + 2 * ring_px,
-                                 rect.height + 2 * ring_px) &
-                        cv::Rect(0, 0, object_mask.cols, object_mask.rows);
+  const cv::Rect area =
+      cv::Rect(rect.x - ring_px, rect.y - ring_px, rect.width + 2 * ring_px, rect.height + 2 * ring_px) &
+      cv::Rect(0, 0, object_mask.cols, object_mask.rows);
   cv::Mat ignored;
   cv::dilate(object_mask(area), ignored,
              cv::getStructuringElement(cv::MORPH_RECT, cv::Size(2 * RIM_PX + 1, 2 * RIM_PX + 1)));

@@ -20,8 +20,7 @@ WorkingImage makeWorkingImage(const rgbd::Frame& frame, const cv::Mat& ignored)
     const auto* from = frame.depth_m.ptr<float>(v * step);
     auto* to = image.frame.depth_m.ptr<float>(v);
     for (int u = 0; u < image.frame.depth_m.cols; ++u)
-      to[u] =
-          !ignored.empty() && ignored.at<std::uint8_t>(v * step, u * step) != 0 ? std::nanf("") : from[u * step];
+      to[u] = !ignored.empty() && ignored.at<std::uint8_t>(v * step, u * step) != 0 ? std::nanf("") : from[u * step];
   }
   geometry::PinholeCamera& camera = image.frame.camera;
   camera = frame.camera;

@@ -12,7 +12,8 @@ namespace
 {
 const std::vector<rgbd::Keyframe>& keyframes()
 {
-  static const std::vector<rgbd::Keyframe> result = [] {
+  static const std::vector<rgbd::Keyframe> result = []
+  {
     test_support::SyntheticScene scene = test_support::boxOnTable();
     scene.objects.push_back(test_support::standingCylinder(0.08, 0.15, 0.2, 0.1));
     scene.objects.push_back(test_support::standingSphere(0.1, -0.15, 0.2));

@@ -65,10 +65,10 @@ TEST(ObjectMaskPropagator, WorksWhereTheObjectIsCutOffByTheImage)
   ASSERT_TRUE(startAt(&propagator, withoutMask(keyframes[0])).ok());
   for (const rgbd::Keyframe& keyframe : keyframes)
     propagator.propagate(withoutMask(keyframe));
-  rgbd::Keyframe beside = test_support::renderKeyframes(twoBoxes(), test_support::vgaCamera(),
-                                                        { test_support::lookAt({ -0.1, -0.7, 0.5 }, { -0.47, 0, 0 }) },
-                                                        kinectNoise())
-                              .front();
+  rgbd::Keyframe beside =
+      test_support::renderKeyframes(twoBoxes(), test_support::vgaCamera(),
+                                    { test_support::lookAt({ -0.1, -0.7, 0.5 }, { -0.47, 0, 0 }) }, kinectNoise())
+          .front();
   const int seen = cv::countNonZero(beside.frame.object_mask);
   ASSERT_GT(cv::countNonZero(beside.frame.object_mask.col(639)), 0) << "meant to touch the border; " << seen << " px";
   const base::Result<cv::Mat> mask = propagator.propagate(withoutMask(beside));

@@ -28,8 +28,7 @@ TEST(PlaneGrowing, JoinsATableThatATallBoxCutsInTwo)
   scene.table_half_size_m = 0.4;
   scene.objects = { test_support::standingBox({ 0.02, 1.2, 0.1 }, 0, 0, 0) };
   const Eigen::Isometry3d T_world_camera = test_support::orbitPose({ 0, 0, 0 }, 0.9, 0.2, 1.1);
-  const rgbd::Frame frame =
-      test_support::renderFrame(scene, test_support::vgaCamera(), T_world_camera, kinectNoise());
+  const rgbd::Frame frame = test_support::renderFrame(scene, test_support::vgaCamera(), T_world_camera, kinectNoise());
   const WorkingImage image = makeWorkingImage(frame);
   const GrownPlanes planes = growPlanes(image, {});
   ASSERT_FALSE(planes.planes.empty());
@@ -68,9 +67,8 @@ TEST(PlaneGrowing, MeasuresARougherPlaneThanTheModel)
 
 TEST(PlaneGrowing, WorkingImageLeavesOutWhatIsIgnored)
 {
-  const rgbd::Frame frame =
-      test_support::renderFrame(test_support::boxOnTable(), test_support::vgaCamera(),
-                                test_support::orbitPose({ 0, 0, 0 }, 0.8, 0, 0.8));
+  const rgbd::Frame frame = test_support::renderFrame(test_support::boxOnTable(), test_support::vgaCamera(),
+                                                      test_support::orbitPose({ 0, 0, 0 }, 0.8, 0, 0.8));
   const cv::Mat everything(frame.depth_m.size(), CV_8UC1, cv::Scalar(255));
   const WorkingImage image = makeWorkingImage(frame, everything);
   EXPECT_EQ(cv::countNonZero(image.frame.depth_m == image.frame.depth_m), 0);

@@ -36,9 +36,8 @@ TEST(SceneSegmenter, FindsTheBoxFromLowToSteepViews)
     const SceneSegmentation segmentation = SceneSegmenter().segment(image.frame);
     ASSERT_TRUE(segmentation.status.ok()) << elevation_deg << " deg: " << segmentation.status.message;
     EXPECT_GT(bestOverlap(segmentation, image, 0), 0.93) << elevation_deg << " deg";
-    const geometry::Plane table =
-        geometry::transformed(orbitPose({ 0, 0, 0.05 }, 0.8, 0.5, elevation_deg * DEG),
-                              segmentation.planes[segmentation.support_plane].plane_camera);
+    const geometry::Plane table = geometry::transformed(orbitPose({ 0, 0, 0.05 }, 0.8, 0.5, elevation_deg * DEG),
+                                                        segmentation.planes[segmentation.support_plane].plane_camera);
     EXPECT_GT(table.normal.z(), std::cos(0.3 * DEG)) << elevation_deg << " deg";
     EXPECT_NEAR(table.offset_m, 0, 0.001) << elevation_deg << " deg";
   }
@@ -99,8 +98,8 @@ TEST(SceneSegmenter, AnyImageSize)
 {
   for (const double factor : { 0.25, 0.5, 2.0 })
   {
-    const SceneImage image = renderScene(test_support::boxOnTable(), vgaCamera().scaled(factor),
-                                         orbitPose({ 0, 0, 0.05 }, 0.7, 0.5, 0.7));
+    const SceneImage image =
+        renderScene(test_support::boxOnTable(), vgaCamera().scaled(factor), orbitPose({ 0, 0, 0.05 }, 0.7, 0.5, 0.7));
     const SceneSegmentation segmentation = SceneSegmenter().segment(image.frame);
     ASSERT_TRUE(segmentation.status.ok()) << factor << ": " << segmentation.status.message;
     EXPECT_GT(bestOverlap(segmentation, image, 0), 0.93) << factor;

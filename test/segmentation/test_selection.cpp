@@ -96,8 +96,8 @@ TEST(Selection, AutomaticPrefersTheLargerNearTheCentreAndAWholeOne)
 
 TEST(Selection, SaysWhyThereIsNothing)
 {
-  for (const base::Result<int>& result :
-       { selectByPixel(nothing(), 0, 0), selectByPoint(nothing(), { 0, 0, 1 }), selectAutomatically(nothing(), camera()) })
+  for (const base::Result<int>& result : { selectByPixel(nothing(), 0, 0), selectByPoint(nothing(), { 0, 0, 1 }),
+                                           selectAutomatically(nothing(), camera()) })
   {
     EXPECT_EQ(result.status.code, base::StatusCode::NO_RESULT);
     EXPECT_NE(result.status.message.find("no plane"), std::string::npos);

@@ -46,9 +46,8 @@ TEST(SupportExtent, CarriesWhatIsOverTheVisibleTable)
   const GrownPlanes planes = growPlanes(image, {});
   ASSERT_EQ(planes.planes.size(), 1U);
   const SupportExtent extent(image, planes, 0);
-  const auto carries = [&](double x_m, double y_m, double z_m) {
-    return extent.carries(T_world_camera.inverse() * Eigen::Vector3d(x_m, y_m, z_m), 0.02);
-  };
+  const auto carries = [&](double x_m, double y_m, double z_m)
+  { return extent.carries(T_world_camera.inverse() * Eigen::Vector3d(x_m, y_m, z_m), 0.02); };
   EXPECT_TRUE(carries(0, 0, 0.3));
   EXPECT_TRUE(carries(0.18, 0.18, 0.1));
   EXPECT_TRUE(carries(0.2, 0, 0.1)) << "within the margin";
