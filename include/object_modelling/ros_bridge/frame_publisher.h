@@ -25,6 +25,10 @@ public:
     return color_.getNumSubscribers() > 0 && depth_.getNumSubscribers() > 0 && info_.getNumSubscribers() > 0;
   }
 
+  /// Whether every node that the master knows as a subscriber of one of the topics has connected to it: before that, it
+  /// would miss a part of the first frame. Asks the master.
+  bool allConnected() const;
+
 private:
   std::string frame_id_;
   ros::Publisher color_, depth_, info_, mask_;

@@ -40,7 +40,8 @@ void Player::waitForListeners()
 {
   const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(options_.wait_s);
   const auto ready = [this] { return publisher_.connected() && (!gate_ || gate_->connected()); };
-  while (ros::ok() && !ready() && ros::WallTime::now() < deadline)
+  // A listener that has connected to some of the topics only would never see the first frame whole.
+  while (ros::ok() && !(ready() && publisher_.allConnected()) && ros::WallTime::now() < deadline)
     ros::WallDuration(POLL_PERIOD_S).sleep();
   if (ready() || !ros::ok())
     return;
