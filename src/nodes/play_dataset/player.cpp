@@ -13,6 +13,8 @@ namespace object_modelling::nodes
 namespace
 {
 constexpr double POLL_PERIOD_S = 0.05;
+// roscpp drops what is still in its queues when a node ends, and does not tell when they are empty.
+constexpr double LINGER_S = 0.5;
 
 /// A player passes on what was recorded; only what is no frame at all is left out.
 rgbd::FrameBuilderOptions passThrough(const PlayOptions& options)
@@ -113,9 +115,12 @@ std::string Player::play()
     stamp_shift_s_ = last_stamp_s_ - first_stamp_s_ + frame_period_s_;
     playOnce();
   }
+  const double played_s = (ros::WallTime::now() - began_).toSec();
+  if (ros::ok())
+    ros::WallDuration(LINGER_S).sleep();
   std::ostringstream text;
   text << std::fixed << std::setprecision(1) << "played " << played_count_ << " frames of " << source_->name() << " in "
-       << (ros::WallTime::now() - began_).toSec() << " s";
+       << played_s << " s";
   if (refused_count_ > 0)
     text << ", left out " << refused_count_;
   return text.str();
