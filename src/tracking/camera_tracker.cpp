@@ -12,9 +12,9 @@ CameraTracker::CameraTracker(const CameraTrackerOptions& options)
 
 CameraTracker::~CameraTracker() = default;
 
-TrackingResult CameraTracker::track(const rgbd::Frame& frame)
+TrackingResult CameraTracker::track(const rgbd::Frame& frame, const std::optional<Eigen::Isometry3d>& T_robot_camera)
 {
-  return implementation_->track(frame);
+  return implementation_->track(frame, T_robot_camera);
 }
 
 void CameraTracker::reset()

@@ -12,6 +12,8 @@ std::vector<std::string> CameraTrackerOptions::violations() const
   check.inRange("max_reprojection_error_px", max_reprojection_error_px, 0.5, 20.0);
   check.inRange("keyframe_angle_rad", keyframe_angle_rad, 0.01, 1.0);
   check.inRange("keyframe_distance_ratio", keyframe_distance_ratio, 0.01, 2.0);
+  check.inRange("robot_translation_sigma_m", robot_translation_sigma_m, 1e-5, 10.0);
+  check.inRange("robot_rotation_sigma_rad", robot_rotation_sigma_rad, 1e-5, 10.0);
   return check.violations();
 }
 

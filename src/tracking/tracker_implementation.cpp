@@ -6,6 +6,7 @@
 #include "keyframe_maker.h"
 #include "object_modelling/base/status.h"
 #include "object_modelling/rgbd/normals.h"
+#include "stage_timer.h"
 
 namespace object_modelling::tracking
 {
@@ -40,8 +41,10 @@ std::string CameraTracker::Implementation::refuse(const rgbd::Frame& frame) cons
   return {};
 }
 
-TrackingResult CameraTracker::Implementation::track(const rgbd::Frame& given)
+TrackingResult CameraTracker::Implementation::track(const rgbd::Frame& given,
+                                                    const std::optional<Eigen::Isometry3d>& T_robot_camera)
 {
+  T_robot_camera_ = T_robot_camera;
   // Masks may come with some frames of a scene too; they say nothing of what stands still.
   rgbd::Frame frame = given;
   if (!objectOnly())
@@ -64,8 +67,10 @@ TrackingResult CameraTracker::Implementation::trackUsable(const rgbd::Frame& fra
   ++frames_since_keyframe_;
   last_stamp_s_ = frame.stamp_s;
 
+  StageTimer timer(&result.times.pyramid_ms);
   const ImagePyramid pyramid(frame.gray);
   result.blur_ratio = updateBlur(frame, pyramid);
+  timer.stop();
   if (map_.empty())
   {
     start(frame, pyramid, &result);
@@ -75,11 +80,11 @@ TrackingResult CameraTracker::Implementation::trackUsable(const rgbd::Frame& fra
   }
 
   result.feature_count = static_cast<int>(last_inliers_.size());
-  Placement placement = placeByFlow(frame, pyramid);
+  Placement placement = placeByFlow(frame, pyramid, &result.times);
   if (!placement.pose.valid)
   {
     const std::string reason = placement.reason;
-    placement = placeByRecognition(frame, pyramid);
+    placement = placeByRecognition(frame, pyramid, &result.times);
     if (!placement.pose.valid)
     {
       lost_ = true;
@@ -91,6 +96,7 @@ TrackingResult CameraTracker::Implementation::trackUsable(const rgbd::Frame& fra
   if (lost_)
     result.reason = "recognised a known view again";
   motion_.add(frame.stamp_s, placement.pose.T_session_camera, !lost_);
+  T_robot_camera_last_ = T_robot_camera_;
   lost_ = false;
   previous_placed_s_ = last_placed_s_;
   last_placed_s_ = frame.stamp_s;
@@ -120,6 +126,7 @@ void CameraTracker::Implementation::start(const rgbd::Frame& frame, const ImageP
     return;
   }
   result->status = TrackingStatus::TRACKING;
+  T_robot_camera_last_ = T_robot_camera_;
   motion_.add(frame.stamp_s, result->T_session_camera, false);
   previous_placed_s_ = last_placed_s_ = frame.stamp_s;
 }
@@ -156,6 +163,7 @@ void CameraTracker::Implementation::addKeyframe(const rgbd::Frame& frame, const 
                                                 const std::vector<LandmarkMatch>& matches, bool trusted,
                                                 TrackingResult* result)
 {
+  const StageTimer timer(&result->times.keyframe_ms);
   FeatureDetectorOptions detector;
   detector.max_features = options_.max_features;
   NewKeyframe made = makeKeyframe(next_keyframe_id_++, frame, pyramid, T_session_camera, matches, objectOnly(),

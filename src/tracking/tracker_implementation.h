@@ -18,7 +18,7 @@ class CameraTracker::Implementation
 public:
   explicit Implementation(const CameraTrackerOptions& options) : options_(options) {}
 
-  TrackingResult track(const rgbd::Frame& frame);
+  TrackingResult track(const rgbd::Frame& frame, const std::optional<Eigen::Isometry3d>& T_robot_camera);
   void reset();
   void resume(const std::vector<rgbd::Keyframe>& keyframes);
   std::optional<Eigen::Isometry3d> predict(double stamp_s) const { return motion_.predict(stamp_s); }
@@ -38,8 +38,10 @@ private:
   /// track() for a frame whose object mask, if any, counts.
   TrackingResult trackUsable(const rgbd::Frame& frame);
   std::string refuse(const rgbd::Frame& frame) const;
-  Placement placeByFlow(const rgbd::Frame& frame, const ImagePyramid& pyramid) const;
-  Placement placeByRecognition(const rgbd::Frame& frame, const ImagePyramid& pyramid) const;
+  /// Where the camera should be now: moved as the robot says, or on at constant velocity.
+  Eigen::Isometry3d predictNow(double stamp_s) const;
+  Placement placeByFlow(const rgbd::Frame& frame, const ImagePyramid& pyramid, StageTimes* times) const;
+  Placement placeByRecognition(const rgbd::Frame& frame, const ImagePyramid& pyramid, StageTimes* times) const;
   /// Looks for the map's landmarks from a rough pose and estimates the final one; `flow` are inliers of optical flow.
   Placement placeByMap(const rgbd::Frame& frame, const ImagePyramid& pyramid, const Eigen::Isometry3d& T_session_camera,
                        const std::vector<LandmarkMatch>& flow, double prediction_error_px) const;
@@ -71,6 +73,8 @@ private:
   double last_placed_s_ = 0;
   double previous_placed_s_ = 0;
   std::vector<LandmarkMatch> last_inliers_;  ///< landmarks followed by optical flow
+  std::optional<Eigen::Isometry3d> T_robot_camera_;       ///< of this frame
+  std::optional<Eigen::Isometry3d> T_robot_camera_last_;  ///< of the last frame that was placed
 };
 
 }  // namespace object_modelling::tracking

@@ -4,6 +4,7 @@
 
 #include "depth_sampling.h"
 #include "relocaliser.h"
+#include "stage_timer.h"
 #include "tracker_implementation.h"
 
 // How a frame is placed; what follows from it is in tracker_implementation.cpp.
@@ -52,8 +53,16 @@ PoseEstimationOptions CameraTracker::Implementation::poseOptions() const
   return options;
 }
 
+Eigen::Isometry3d CameraTracker::Implementation::predictNow(double stamp_s) const
+{
+  if (T_robot_camera_ && T_robot_camera_last_)
+    return geometry::normalised(*motion_.last() * T_robot_camera_last_->inverse() * *T_robot_camera_);
+  return *motion_.predict(stamp_s);
+}
+
 CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByFlow(const rgbd::Frame& frame,
-                                                                                    const ImagePyramid& pyramid) const
+                                                                                    const ImagePyramid& pyramid,
+                                                                                    StageTimes* times) const
 {
   Placement placement;
   // Flow across a longer loss finds accidental fits; only recognition, which is verified, ends it.
@@ -63,7 +72,8 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByF
     placement.reason = "no landmarks to follow into this frame";
     return placement;
   }
-  const Eigen::Isometry3d T_session_predicted = *motion_.predict(frame.stamp_s);
+  StageTimer flow_timer(&times->flow_ms);
+  const Eigen::Isometry3d T_session_predicted = predictNow(frame.stamp_s);
   const Eigen::Isometry3d T_predicted_session = T_session_predicted.inverse();
   std::vector<Eigen::Vector2f> from, predicted;
   for (const LandmarkMatch& match : last_inliers_)
@@ -96,6 +106,8 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByF
                        std::to_string(last_inliers_.size()) + " landmarks consistent";
     return placement;
   }
+  flow_timer.stop();
+  const StageTimer map_timer(&times->map_ms);
   placement = placeByMap(frame, pyramid, rough.T_session_camera, inliersOf(matches, rough), FLOW_PREDICTION_ERROR_PX);
   if (placement.pose.valid)
   {
@@ -106,8 +118,9 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByF
 }
 
 CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByRecognition(
-    const rgbd::Frame& frame, const ImagePyramid& pyramid) const
+    const rgbd::Frame& frame, const ImagePyramid& pyramid, StageTimes* times) const
 {
+  const StageTimer timer(&times->recognition_ms);
   const Relocalisation found = relocalise(frame, map_, motion_.last(), seed());
   if (!found.keyframe)
   {

@@ -33,8 +33,22 @@ struct CameraTrackerOptions
   double max_reprojection_error_px = 2.5;  ///< inlier gate at the frame's resolution
   double keyframe_angle_rad = 0.20943951;  ///< 12 deg: no stored keyframe views from a direction closer than this ...
   double keyframe_distance_ratio = 0.2;    ///< ... or from within this share of the median depth
-  std::uint64_t seed = 1;                  ///< of every random choice; the same frames and seed give the same poses
+  /// Standard deviations of the motion between two frames as a robot measures it; see track().
+  double robot_translation_sigma_m = 0.003;
+  double robot_rotation_sigma_rad = 0.01;
+  std::uint64_t seed = 1;  ///< of every random choice; the same frames and seed give the same poses
   std::vector<std::string> violations() const;
+};
+
+/// Wall time that the steps of one frame took.
+struct StageTimes
+{
+  double pyramid_ms = 0;
+  double flow_ms = 0;         ///< optical flow and the rough pose
+  double map_ms = 0;          ///< patches of the map's landmarks
+  double dense_ms = 0;        ///< depth and intensity of all surfaces
+  double recognition_ms = 0;  ///< only where the steps above failed
+  double keyframe_ms = 0;
 };
 
 /// What the tracker says of one frame.
@@ -51,6 +65,7 @@ struct TrackingResult
   double speed_m_per_s = 0;
   double angular_speed_rad_per_s = 0;
   double blur_ratio = 0;                   ///< 0 sharp .. 1 no detail left, against the session's sharpest frames
+  StageTimes times;
   std::optional<rgbd::Keyframe> keyframe;  ///< set when this frame becomes a keyframe; ids count from 0
 
   bool tracked() const { return status == TrackingStatus::TRACKING || status == TrackingStatus::RELOCALISED; }
@@ -67,8 +82,10 @@ public:
   ~CameraTracker();
 
   /// Tracks the next frame, in time order. A frame whose size differs from the session's, or whose stamp is not newer,
-  /// gives LOST with the reason and changes nothing.
-  TrackingResult track(const rgbd::Frame& frame);
+  /// gives LOST with the reason and changes nothing. `T_robot_camera`: where a robot that carries the camera says it
+  /// is, in any frame that stands still with respect to the scene; only the motion since the last frame placed counts,
+  /// as prediction and as a measurement with the sigmas of the options.
+  TrackingResult track(const rgbd::Frame& frame, const std::optional<Eigen::Isometry3d>& T_robot_camera = {});
 
   /// Forgets everything: the next frame starts a new session.
   void reset();
