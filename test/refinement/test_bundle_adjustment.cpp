@@ -1,15 +1,26 @@
 #include "object_modelling/refinement/bundle_adjustment.h"
 
 #include <cstring>
+#include <limits>
 
 #include <gtest/gtest.h>
 
-#include "landmark_scene.h"
+#include "object_modelling/rgbd/sensor_noise_model.h"
+#include "pose_errors.h"
+#include "support/synthetic_bundle.h"
 
 namespace object_modelling::refinement
 {
 namespace
 {
+using test_support::SyntheticBundleOptions;
+
+/// Exact poses; observations with the noise asked for.
+std::vector<rgbd::Keyframe> observedLandmarks(const SyntheticBundleOptions& options = {})
+{
+  return test_support::makeSyntheticBundle(options).keyframes;
+}
+
 BundleAdjustmentOptions withoutLinks()
 {
   BundleAdjustmentOptions options;
@@ -26,7 +37,7 @@ BundleAdjustmentResult adjust(const std::vector<rgbd::Keyframe>& keyframes,
 
 TEST(BundleAdjustment, recoversExactPosesFromASmallPerturbation)
 {
-  const std::vector<rgbd::Keyframe> truth = makeLandmarkScene({});
+  const std::vector<rgbd::Keyframe> truth = observedLandmarks();
   const BundleAdjustmentResult result = adjust(perturbed(truth, 0.005, 0.01));
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   const PoseError error = largestError(result.T_session_camera, truth);
@@ -38,7 +49,7 @@ TEST(BundleAdjustment, recoversExactPosesFromASmallPerturbation)
 
 TEST(BundleAdjustment, recoversExactPosesFromALargePerturbation)
 {
-  const std::vector<rgbd::Keyframe> truth = makeLandmarkScene({});
+  const std::vector<rgbd::Keyframe> truth = observedLandmarks();
   const BundleAdjustmentResult result = adjust(perturbed(truth, 0.06, 0.12));
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   const PoseError error = largestError(result.T_session_camera, truth);
@@ -48,7 +59,7 @@ TEST(BundleAdjustment, recoversExactPosesFromALargePerturbation)
 
 TEST(BundleAdjustment, keepsTheFirstPoseBitForBit)
 {
-  std::vector<rgbd::Keyframe> keyframes = perturbed(makeLandmarkScene({}), 0.01, 0.02);
+  std::vector<rgbd::Keyframe> keyframes = perturbed(observedLandmarks(), 0.01, 0.02);
   const Eigen::Isometry3d T_other_session(Eigen::Translation3d(1, -2, 3) *
                                           Eigen::AngleAxisd(2.5, Eigen::Vector3d(1, 2, 3).normalized()));
   for (rgbd::Keyframe& keyframe : keyframes)
@@ -61,13 +72,13 @@ TEST(BundleAdjustment, keepsTheFirstPoseBitForBit)
 
 TEST(BundleAdjustment, withstandsNoiseAndOutliers)
 {
-  LandmarkSceneOptions options;
-  options.pixel_noise_px = 0.5;
-  options.depth_noise_sigmas = 1;
+  SyntheticBundleOptions options;
+  options.pixel_sigma_px = 0.5;
+  options.depth_sigma_scale = 1;
   options.outlier_ratio = 0.1;
   options.landmark_count = 3000;
-  options.arc_rad = 1.0;
-  const std::vector<rgbd::Keyframe> truth = makeLandmarkScene(options);
+  options.step_rad = 0.09;
+  const std::vector<rgbd::Keyframe> truth = observedLandmarks(options);
   const BundleAdjustmentResult result = adjust(perturbed(truth, 0.01, 0.02));
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   const PoseError error = largestError(result.T_session_camera, truth);
@@ -84,17 +95,17 @@ TEST(BundleAdjustment, withstandsNoiseAndOutliers)
 
 TEST(BundleAdjustment, covarianceForetellsTheError)
 {
-  LandmarkSceneOptions options;
-  options.pixel_noise_px = 0.5;
-  options.depth_noise_sigmas = 1;
-  options.keyframe_count = 6;
-  options.arc_rad = 0.8;
+  SyntheticBundleOptions options;
+  options.pixel_sigma_px = 0.5;
+  options.depth_sigma_scale = 1;
+  options.camera_count = 6;
+  options.step_rad = 0.16;
   double squared = 0;
   int count = 0;
   for (unsigned seed = 1; seed <= 12; ++seed)
   {
     options.seed = seed;
-    const std::vector<rgbd::Keyframe> truth = makeLandmarkScene(options);
+    const std::vector<rgbd::Keyframe> truth = observedLandmarks(options);
     const BundleAdjustmentResult result = adjust(perturbed(truth, 0.003, 0.005));
     ASSERT_TRUE(result.status.ok()) << result.status.message;
     for (std::size_t k = 1; k < truth.size(); ++k)
@@ -111,16 +122,16 @@ TEST(BundleAdjustment, covarianceForetellsTheError)
 
 TEST(BundleAdjustment, worksWithFewOrNoDepths)
 {
-  LandmarkSceneOptions options;
+  SyntheticBundleOptions options;
   options.missing_depth_ratio = 0.7;
-  const std::vector<rgbd::Keyframe> truth = makeLandmarkScene(options);
+  const std::vector<rgbd::Keyframe> truth = observedLandmarks(options);
   const BundleAdjustmentResult some = adjust(perturbed(truth, 0.005, 0.01));
   ASSERT_TRUE(some.status.ok()) << some.status.message;
   EXPECT_LT(largestError(some.T_session_camera, truth).translation_m, 5e-5);
 
   // Without depth the scale is free: right up to one factor.
   options.missing_depth_ratio = 1.1;
-  const std::vector<rgbd::Keyframe> blind = makeLandmarkScene(options);
+  const std::vector<rgbd::Keyframe> blind = observedLandmarks(options);
   const BundleAdjustmentResult none = adjust(perturbed(blind, 0.002, 0.003));
   ASSERT_TRUE(none.status.ok()) << none.status.message;
   const Eigen::Vector3d t_last = none.T_session_camera.back().translation();
@@ -131,7 +142,7 @@ TEST(BundleAdjustment, worksWithFewOrNoDepths)
 
 TEST(BundleAdjustment, leavesOutDisconnectedKeyframes)
 {
-  std::vector<rgbd::Keyframe> keyframes = perturbed(makeLandmarkScene({}), 0.003, 0.005);
+  std::vector<rgbd::Keyframe> keyframes = perturbed(observedLandmarks(), 0.003, 0.005);
   for (rgbd::Observation& observation : keyframes[4].observations)
     observation.landmark_id += 100000;
   keyframes[9].observations.clear();
@@ -145,7 +156,7 @@ TEST(BundleAdjustment, leavesOutDisconnectedKeyframes)
 TEST(BundleAdjustment, answersNothingToAdjust)
 {
   EXPECT_EQ(adjust({}).status.code, base::StatusCode::NO_RESULT);
-  std::vector<rgbd::Keyframe> keyframes = makeLandmarkScene({});
+  std::vector<rgbd::Keyframe> keyframes = observedLandmarks();
   const BundleAdjustmentResult one = adjust({ keyframes[0] });
   EXPECT_EQ(one.status.code, base::StatusCode::NO_RESULT);
   ASSERT_EQ(one.T_session_camera.size(), 1u);
@@ -159,7 +170,7 @@ TEST(BundleAdjustment, answersNothingToAdjust)
 
 TEST(BundleAdjustment, returnsTheOldPosesWithoutConvergence)
 {
-  const std::vector<rgbd::Keyframe> keyframes = perturbed(makeLandmarkScene({}), 0.02, 0.04);
+  const std::vector<rgbd::Keyframe> keyframes = perturbed(observedLandmarks(), 0.02, 0.04);
   BundleAdjustmentOptions options = withoutLinks();
   options.max_iterations = 1;
   const BundleAdjustmentResult result = adjust(keyframes, options);
@@ -170,7 +181,7 @@ TEST(BundleAdjustment, returnsTheOldPosesWithoutConvergence)
 TEST(BundleAdjustment, usesTheObjectAloneWhereAsked)
 {
   // Half of the landmarks belong to a background that stands still while the object turns: it contradicts the object.
-  const std::vector<rgbd::Keyframe> truth = makeLandmarkScene({});
+  const std::vector<rgbd::Keyframe> truth = observedLandmarks();
   std::vector<rgbd::Keyframe> keyframes = perturbed(truth, 0.003, 0.005);
   for (rgbd::Keyframe& keyframe : keyframes)
   {
@@ -198,7 +209,7 @@ TEST(BundleAdjustment, usesTheObjectAloneWhereAsked)
 
 TEST(BundleAdjustment, ignoresMalformedObservations)
 {
-  const std::vector<rgbd::Keyframe> truth = makeLandmarkScene({});
+  const std::vector<rgbd::Keyframe> truth = observedLandmarks();
   std::vector<rgbd::Keyframe> keyframes = perturbed(truth, 0.003, 0.005);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (rgbd::Keyframe& keyframe : keyframes)
@@ -223,17 +234,17 @@ TEST(BundleAdjustment, refusesBadInput)
   options.threads = 0;
   EXPECT_EQ(options.violations().size(), 2u);
   EXPECT_THROW(adjust({}, options), base::Error);
-  std::vector<rgbd::Keyframe> keyframes = makeLandmarkScene({});
+  std::vector<rgbd::Keyframe> keyframes = observedLandmarks();
   keyframes[3].T_session_camera.translation().x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(adjust(keyframes), base::Error);
 }
 
 TEST(BundleAdjustment, givesTheSameBytesTwice)
 {
-  LandmarkSceneOptions scene;
-  scene.pixel_noise_px = 0.5;
+  SyntheticBundleOptions scene;
+  scene.pixel_sigma_px = 0.5;
   scene.outlier_ratio = 0.1;
-  const std::vector<rgbd::Keyframe> keyframes = perturbed(makeLandmarkScene(scene), 0.01, 0.02);
+  const std::vector<rgbd::Keyframe> keyframes = perturbed(observedLandmarks(scene), 0.01, 0.02);
   const BundleAdjustmentResult first = adjust(keyframes), second = adjust(keyframes);
   for (std::size_t k = 0; k < keyframes.size(); ++k)
   {
@@ -244,7 +255,7 @@ TEST(BundleAdjustment, givesTheSameBytesTwice)
 
 TEST(BundleAdjustment, stopsWhenCancelled)
 {
-  const std::vector<rgbd::Keyframe> keyframes = perturbed(makeLandmarkScene({}), 0.01, 0.02);
+  const std::vector<rgbd::Keyframe> keyframes = perturbed(observedLandmarks(), 0.01, 0.02);
   base::JobControl early;
   early.cancel();
   EXPECT_THROW(adjustBundle(keyframes, withoutLinks(), early), base::Cancelled);

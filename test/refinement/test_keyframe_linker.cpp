@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "landmark_scene.h"
 #include "link_scene.h"
 #include "object_modelling/refinement/bundle_adjustment.h"
+#include "pose_errors.h"
 #include "support/handheld_trajectory.h"
 #include "support/synthetic_scene.h"
 

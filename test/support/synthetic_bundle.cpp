@@ -87,8 +87,11 @@ private:
 
 SyntheticBundle makeSyntheticBundle(const SyntheticBundleOptions& options)
 {
-  const std::vector<Eigen::Isometry3d> T_world_cameras =
-      orbitPoses(options.camera_count, Eigen::Vector3d::Zero(), options.radius_m, options.elevation_rad);
+  const double step_rad = options.step_rad > 0 ? options.step_rad : 2 * M_PI / options.camera_count;
+  std::vector<Eigen::Isometry3d> T_world_cameras;
+  for (int k = 0; k < options.camera_count; ++k)
+    T_world_cameras.push_back(
+        orbitPose(Eigen::Vector3d::Zero(), options.radius_m, k * step_rad, options.elevation_rad));
   const Eigen::Isometry3d T_session_world = T_world_cameras.front().inverse(Eigen::Isometry);
   std::vector<Eigen::Vector3d> p_world;
   for (int i = 0; i < options.landmark_count; ++i)

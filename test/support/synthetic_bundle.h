@@ -11,7 +11,8 @@ namespace object_modelling::test_support
 {
 struct SyntheticBundleOptions
 {
-  int camera_count = 12;  ///< evenly once round the landmarks
+  int camera_count = 12;
+  double step_rad = 0;  ///< from camera to camera; 0: evenly once round the landmarks
   int landmark_count = 400;
   double radius_m = 0.7;
   double elevation_rad = 0.6;
