@@ -1,88 +1,166 @@
-// Tracks recordings and prints, for each, the processor time per frame (tracker alone), the share of frames tracked and
-// the number of keyframes; writes the trajectories for scoring.
-//   benchmark_tracking [--object] [--out FOLDER] RECORDING...
+// Tracks recordings and prints what came of it as tables: share of frames tracked, errors against the truth, time by
+// stage, memory. benchmark_tracking --help; docs/tracking.md.
 #include <algorithm>
-#include <cstdio>
-#include <cstring>
-#include <ctime>
-#include <string>
-#include <vector>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
 
-#include "object_modelling/rgbd/frame_builder.h"
-#include "object_modelling/source/trajectory_file.h"
-#include "object_modelling/source/tum_folder.h"
-#include "object_modelling/tracking/camera_tracker.h"
+#include <glog/logging.h>
+#include <yaml-cpp/yaml.h>
+#include <CLI/CLI.hpp>
+
+#include "object_modelling/base/status.h"
+#include "tracking_report.h"
 
 namespace
 {
 using namespace object_modelling;
+using namespace object_modelling::benchmark_tracking;
 
-/// Processor time of this process: what a frame costs, whatever else the machine is doing.
-double cpuTime_ms()
+struct Arguments
 {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
+  std::vector<std::string> recordings;
+  RunOptions run;
+  bool refine = false, events = false, verbose = false;
+  int repeat = 1;
+  std::string out, json;
+};
 
-double quantile(std::vector<double> values, double share)
+std::vector<Event> readEvents(const std::string& path)
 {
-  if (values.empty())
-    return 0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
-
-void run(const std::string& path, bool object_reference, const std::string& out, bool verbose)
-{
-  const auto source = source::openTumFolder(path);
-  rgbd::FrameBuilder builder;
-  tracking::CameraTrackerOptions options;
-  options.reference = object_reference ? tracking::Reference::OBJECT : tracking::Reference::SCENE;
-  tracking::CameraTracker tracker(options);
-  std::vector<double> times_ms;
-  std::vector<source::StampedPose> trajectory;
-  int frames = 0, keyframes = 0, relocalised = 0;
-  while (const auto raw = source->next())
+  std::vector<Event> events;
+  try
   {
-    ++frames;
-    const base::Result<rgbd::Frame> frame = builder.build(*raw);
-    if (!frame.ok())
-      continue;
-    const double start_ms = cpuTime_ms();
-    const tracking::TrackingResult result = tracker.track(frame.value);
-    times_ms.push_back(cpuTime_ms() - start_ms);
-    if (result.tracked())
-      trajectory.push_back({ result.stamp_s, result.T_session_camera });
-    keyframes += result.keyframe.has_value();
-    relocalised += result.status == tracking::TrackingStatus::RELOCALISED;
-    if (verbose)
-      std::printf("%.6f %s inliers %d of %d, %.2f px, blur %.2f%s %s\n", result.stamp_s, toString(result.status),
-                  result.inlier_count, result.feature_count, result.reprojection_rmse_px, result.blur_ratio,
-                  result.keyframe ? ", keyframe" : "", result.reason.c_str());
+    for (const YAML::Node& event : YAML::LoadFile(path)["events"])
+      events.push_back({ event["type"].as<std::string>(), event["start"].as<double>(), event["end"].as<double>() });
   }
-  std::printf("%s: tracked %zu of %d, %d keyframes, %d relocalised, CPU ms per frame median %.1f p95 %.1f max %.1f\n",
-              path.c_str(), trajectory.size(), frames, keyframes, relocalised, quantile(times_ms, 0.5),
-              quantile(times_ms, 0.95), quantile(times_ms, 1));
-  if (!out.empty())
-    source::writeTrajectory(out + "/" + path.substr(path.find_last_of('/') + 1) + ".txt", trajectory);
+  catch (const YAML::Exception& error)
+  {
+    throw base::Error(base::StatusCode::BAD_INPUT, "'" + path + "': " + error.what());
+  }
+  return events;
+}
+
+bool samePoses(const Run& a, const Run& b)
+{
+  return std::equal(a.frames.begin(), a.frames.end(), b.frames.begin(), b.frames.end(),
+                    [](const FrameRecord& x, const FrameRecord& y)
+                    {
+                      return x.result.status == y.result.status &&
+                             x.result.T_session_camera.matrix() == y.result.T_session_camera.matrix();
+                    });
+}
+
+void compareWithTruth(const std::vector<source::StampedPose>& truth, RecordingReport* report)
+{
+  const Run& run = report->runs.front();
+  std::vector<double> stamps_s;
+  std::vector<EstimateWithCovariance> estimate;
+  for (const FrameRecord& frame : run.frames)
+  {
+    stamps_s.push_back(frame.result.stamp_s);
+    if (frame.result.tracked())
+      estimate.push_back({ { frame.result.stamp_s, frame.result.T_session_camera }, frame.result.covariance });
+  }
+  report->live = scoreTrajectory(run.trajectory(), truth, report->events, stamps_s);
+  report->nees = neesOf(estimate, truth, ScoreOptions().tolerance_s);
+  if (report->refined)
+    report->refined_score = scoreTrajectory(report->refined->trajectory, truth, report->events, stamps_s);
+}
+
+/// Folder and name for the trajectory files of a recording: its last two path components, for "session_1" says little.
+std::string outputBase(const std::string& out, const std::string& recording)
+{
+  const std::filesystem::path path = std::filesystem::absolute(recording).lexically_normal();
+  return out + "/" + path.parent_path().filename().string() + "_" + path.filename().string();
+}
+
+RecordingReport measure(const std::string& recording, const Arguments& arguments)
+{
+  RecordingReport report;
+  report.recording = recording;
+  RunOptions options = arguments.run;
+  for (int i = 0; i < arguments.repeat; ++i)
+  {
+    options.keep_keyframes = arguments.refine && i == 0;
+    report.runs.push_back(trackRecording(recording, options));
+    report.repeatable &= samePoses(report.runs.front(), report.runs.back());
+  }
+  Run& run = report.runs.front();
+  if (arguments.refine)
+    report.refined = refineRun(run, options);
+  run.keyframes.clear();
+  if (arguments.events && std::filesystem::exists(recording + "/events.yaml"))
+    report.events = readEvents(recording + "/events.yaml");
+  if (std::filesystem::exists(recording + "/groundtruth.txt"))
+    compareWithTruth(source::readTrajectory(recording + "/groundtruth.txt"), &report);
+  if (!arguments.out.empty())
+  {
+    report.trajectory_path = outputBase(arguments.out, recording) + ".txt";
+    source::writeTrajectory(report.trajectory_path, run.trajectory());
+    if (report.refined && report.refined->problem.empty())
+    {
+      report.refined_path = outputBase(arguments.out, recording) + "_refined.txt";
+      source::writeTrajectory(report.refined_path, report.refined->trajectory);
+    }
+  }
+  return report;
+}
+
+void run(const Arguments& arguments)
+{
+  std::vector<RecordingReport> reports;
+  nlohmann::json json;
+  for (std::string recording : arguments.recordings)
+  {
+    while (recording.size() > 1 && recording.back() == '/')
+      recording.pop_back();
+    reports.push_back(measure(recording, arguments));
+    if (arguments.verbose)
+      std::cout << toLines(reports.back().runs.front()) << "\n";
+    json["recordings"].push_back(toJson(reports.back()));
+  }
+  std::cout << toTable(reports);
+  if (arguments.json.empty())
+    return;
+  std::ofstream file(arguments.json);
+  file << json.dump(1) << "\n";
+  if (!file.flush())
+    throw base::Error(base::StatusCode::STORAGE, "cannot write '" + arguments.json + "'");
 }
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  bool object_reference = false;
-  bool verbose = false;
-  std::string out;
-  for (int i = 1; i < argc; ++i)
+  google::InitGoogleLogging(argv[0]);
+  FLAGS_logtostderr = true;
+  FLAGS_minloglevel = google::GLOG_WARNING;
+  CLI::App app("Accuracy, time and memory of the camera tracker on TUM-style recordings.");
+  app.footer("Times are of the tracker alone. Start it under 'taskset -c 0' to measure one core.");
+  Arguments arguments;
+  app.add_option("recordings", arguments.recordings, "TUM-style folders; errors where they have groundtruth.txt")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  app.add_flag("--object", arguments.run.object_reference, "Track the object on the masks, not the scene");
+  app.add_flag("--refine", arguments.refine, "Also refine the keyframes, and score what follows for all frames");
+  app.add_flag("--events", arguments.events, "Count frames after each event of events.yaml; align before the first");
+  app.add_option("--every", arguments.run.every, "Only every Nth frame, as when frames are dropped")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--skip", arguments.run.skip, "Leave out the first N frames")->check(CLI::NonNegativeNumber);
+  app.add_option("--seed", arguments.run.seed, "Of the tracker's random choices");
+  app.add_option("--repeat", arguments.repeat, "Runs; times are the medians of theirs")->check(CLI::PositiveNumber);
+  app.add_option("--out", arguments.out, "Folder for trajectories")->check(CLI::ExistingDirectory);
+  app.add_option("--json", arguments.json, "Also write all figures, and series by frame, to this file");
+  app.add_flag("--verbose", arguments.verbose, "One line per frame");
+  CLI11_PARSE(app, argc, argv);
+  try
   {
-    if (std::strcmp(argv[i], "--object") == 0)
-      object_reference = true;
-    else if (std::strcmp(argv[i], "--verbose") == 0)
-      verbose = true;
-    else if (std::strcmp(argv[i], "--out") == 0 && i + 1 < argc)
-      out = argv[++i];
-    else
-      run(argv[i], object_reference, out, verbose);
+    run(arguments);
   }
+  catch (const base::Error& error)
+  {
+    std::cerr << "benchmark_tracking: " << error.what() << std::endl;
+    return 1;
+  }
+  return 0;
 }
