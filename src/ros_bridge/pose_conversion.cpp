@@ -12,6 +12,23 @@ namespace
 {
 constexpr double UNIT_LENGTH_TOLERANCE = 1e-3;
 
+/// A small motion (t, r) on the left of T moves the source's origin p by t + r x p; ROS asks for that displacement and
+/// r, we keep t and r. With `sign` +1 the Jacobian from ours to that of ROS, with -1 the way back.
+geometry::Matrix6d displacementOf(const Eigen::Vector3d& p_target, double sign)
+{
+  geometry::Matrix6d jacobian = geometry::Matrix6d::Identity();
+  jacobian.topRightCorner<3, 3>() << 0, p_target.z(), -p_target.y(), -p_target.z(), 0, p_target.x(), p_target.y(),
+      -p_target.x(), 0;
+  jacobian.topRightCorner<3, 3>() *= sign;
+  return jacobian;
+}
+
+geometry::Matrix6d propagated(const geometry::Matrix6d& covariance, const geometry::Matrix6d& jacobian)
+{
+  const geometry::Matrix6d result = jacobian * covariance * jacobian.transpose();
+  return (result + result.transpose()) / 2;
+}
+
 void requireUnit(double length, const std::string& what)
 {
   if (std::abs(length - 1) <= UNIT_LENGTH_TOLERANCE)
@@ -52,8 +69,9 @@ geometry_msgs::PoseWithCovariance toMessage(const Eigen::Isometry3d& T_target_so
 {
   geometry_msgs::PoseWithCovariance message;
   message.pose = toPoseMessage(T_target_source);
+  const geometry::Matrix6d covariance_ros = propagated(covariance, displacementOf(T_target_source.translation(), 1));
   // Symmetric, so that Eigen's column order is the message's row order.
-  std::copy_n(covariance.data(), message.covariance.size(), message.covariance.begin());
+  std::copy_n(covariance_ros.data(), message.covariance.size(), message.covariance.begin());
   return message;
 }
 
@@ -74,7 +92,8 @@ geometry::Matrix6d covarianceFromMessage(const geometry_msgs::PoseWithCovariance
   const Eigen::Map<const geometry::Matrix6d> covariance(pose.covariance.data());
   if (!covariance.allFinite())
     throw base::Error(base::StatusCode::INVALID_ARGUMENT, "covariance of a pose is not finite");
-  return covariance;
+  const Eigen::Vector3d p_target(pose.pose.position.x, pose.pose.position.y, pose.pose.position.z);
+  return propagated(covariance, displacementOf(p_target, -1));
 }
 
 object_modelling::Plane toMessage(const geometry::Plane& plane)

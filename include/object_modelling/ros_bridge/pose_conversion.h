@@ -15,11 +15,14 @@ namespace object_modelling::ros_bridge
 {
 geometry_msgs::Pose toPoseMessage(const Eigen::Isometry3d& T_target_source);
 geometry_msgs::Transform toTransformMessage(const Eigen::Isometry3d& T_target_source);
+/// `covariance` as geometry::Matrix6d has it; in the message it is that of the position and of rotations about the
+/// target's axes, through the source's origin, as ROS wants.
 geometry_msgs::PoseWithCovariance toMessage(const Eigen::Isometry3d& T_target_source,
                                             const geometry::Matrix6d& covariance);
 
 /// Throw base::Error (INVALID_ARGUMENT) for a quaternion that is not of unit length (to 1e-3) and for NaN.
 Eigen::Isometry3d fromMessage(const geometry_msgs::Pose& target_from_source);
+/// Back to what geometry::Matrix6d means.
 geometry::Matrix6d covarianceFromMessage(const geometry_msgs::PoseWithCovariance& pose);
 
 object_modelling::Plane toMessage(const geometry::Plane& plane);
