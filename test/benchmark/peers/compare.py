@@ -36,8 +36,7 @@ def name_of(path):
 def run_opencv(arguments, method, path, options, base):
     text = on_one_core(arguments, [os.path.join(arguments.build, "opencv_odometry"), path, "--method", method,
                                    "--out", base + ".txt", *options])
-    result = json.loads(text)
-    return {f"OpenCV {method}": {"trajectory": base + ".txt", **result}}
+    return {f"OpenCV {method}": {"trajectory": base + ".txt", **json.loads(text)}}
 
 
 def run_open3d(arguments, path, options, base):
@@ -73,11 +72,13 @@ def score(arguments, path, trajectory):
     return json.loads(done.stdout) if done.stdout else {"error": "not scored"}
 
 
-def kept(path, again, run):
+def kept(arguments, path, run):
     """The result in the file `path`, or that of run(), then written to it."""
-    if os.path.exists(path) and not again:
+    if os.path.exists(path) and not arguments.again:
         with open(path) as text:
             return json.load(text)
+    if arguments.kept_only:
+        return {}
     result = run()
     with open(path, "w") as text:
         json.dump(result, text, indent=1)
@@ -90,14 +91,18 @@ def results_of(arguments, recording):
     results = {}
     if "ours" in arguments.only:
         results.update(run_ours(arguments, path, options, base + "_ours"))
-    if "opencv" in arguments.only:
-        for method in OPENCV_METHODS:
-            own = f"{base}_opencv_{method}"
-            results.update(kept(own + ".json", arguments.again,
-                                lambda m=method, b=own: run_opencv(arguments, m, path, options, b)))
-    if "open3d" in arguments.only:
-        own = base + "_open3d"
-        results.update(kept(own + ".json", arguments.again, lambda: run_open3d(arguments, path, options, own)))
+    for start in arguments.starts:
+        peers, peer_options = {}, [*options, "--start", start]
+        if "opencv" in arguments.only:
+            for method in OPENCV_METHODS:
+                own = f"{base}_opencv_{method}_{start}"
+                peers.update(kept(arguments, own + ".json",
+                                  lambda m=method, b=own, o=peer_options: run_opencv(arguments, m, path, o, b)))
+        if "open3d" in arguments.only:
+            own = f"{base}_open3d_{start}"
+            peers.update(kept(arguments, own + ".json",
+                              lambda b=own, o=peer_options: run_open3d(arguments, path, o, b)))
+        results.update({f"{method}, {start}": result for method, result in peers.items()})
     for result in results.values():
         result["score"] = score(arguments, path, result["trajectory"])
     return results
@@ -121,7 +126,7 @@ def markdown(table):
              "time ratio |", "|" + "---|" * 10]
     for name, results in table.items():
         for method, result in results.items():
-            reference = results.get(OURS_REFINED if method == "Open3D + loops" else OURS, {})
+            reference = results.get(OURS_REFINED if method.startswith("Open3D + loops") else OURS, {})
             ate, time_ms = figure(result, "ate_mm", "rmse"), result["cpu_ms"]["median"]
             own_ate = figure(reference, "ate_mm", "rmse") if reference else None
             own_ms = reference["cpu_ms"]["median"] if reference else None
@@ -142,6 +147,9 @@ def main():
     parser.add_argument("--results", required=True, help="folder for trajectories and results")
     parser.add_argument("--only", default="ours,opencv,open3d", type=lambda text: text.split(","),
                         help="which of ours, opencv, open3d; default all")
+    parser.add_argument("--starts", default="velocity,last", type=lambda text: text.split(","),
+                        help="where the peers' search starts: velocity, last; default both")
+    parser.add_argument("--kept-only", action="store_true", help="take only those peers' results that are kept")
     parser.add_argument("--again", action="store_true", help="run the peers again even if their results are kept")
     parser.add_argument("--core", type=int, default=0)
     parser.add_argument("--ours-option", action="append", default=[], help="passed on to benchmark_tracking")

@@ -67,7 +67,7 @@ class Chain:
             self.frames.append((0, np.eye(4)))
             return
         index, last = self.frames[-1]
-        guess = last @ self.step
+        guess = last @ self.step if self.arguments.start == "velocity" else last
         good, found, information = self.odometry(image, self.keyframes[-1], guess)
         step = np.linalg.inv(last) @ found
         good = good and within(step, MAX_STEP_M, MAX_STEP_DEG)
@@ -125,6 +125,8 @@ def main():
     parser.add_argument("--loop-closures", metavar="FILE", help="also close loops, and write the trajectory after it")
     parser.add_argument("--every", type=int, default=1, help="only every Nth frame")
     parser.add_argument("--skip", type=int, default=0, help="leave out the first N frames")
+    parser.add_argument("--start", choices=("velocity", "last"), default="velocity",
+                        help="where the search starts: constant velocity, or the last pose")
     parser.add_argument("--keyframe-m", type=float, default=0.05, help="motion to the next keyframe; 0: frame to frame")
     parser.add_argument("--keyframe-deg", type=float, default=5.0)
     parser.add_argument("--loop-m", type=float, default=0.3, help="keyframes closer than this are matched")
