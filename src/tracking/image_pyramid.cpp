@@ -9,7 +9,7 @@ namespace object_modelling::tracking
 {
 namespace
 {
-constexpr int MAX_LEVEL = 3;
+constexpr int MAX_LEVEL = 4;
 const cv::Size WINDOW(15, 15);
 constexpr double MIN_EIGENVALUE = 1e-4;
 constexpr float BORDER_PX = 8;

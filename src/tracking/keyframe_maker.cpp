@@ -7,8 +7,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "depth_sampling.h"
-#include "object_modelling/rgbd/normals.h"
+#include "object_modelling/rgbd/surface_fit.h"
 
 namespace object_modelling::tracking
 {
@@ -31,16 +30,12 @@ cv::Mat allowedMask(const rgbd::Frame& frame, bool object_only)
   return allowed;
 }
 
-std::optional<Sighting> makeSighting(std::uint64_t landmark_id, const Eigen::Vector2f& pixel, const rgbd::Frame& frame,
-                                     const cv::Mat& normals)
+std::optional<Sighting> makeSighting(std::uint64_t landmark_id, const Eigen::Vector2f& pixel, const rgbd::Frame& frame)
 {
-  const float z_m = sampleDepth_m(frame.depth_m, pixel.x(), pixel.y());
-  const auto& normal =
-      normals.at<cv::Vec3f>(static_cast<int>(std::lround(pixel.y())), static_cast<int>(std::lround(pixel.x())));
-  if (std::isnan(z_m) || std::isnan(normal[0]))
+  const std::optional<rgbd::SurfacePoint> surface = rgbd::fitSurface(frame, pixel.cast<double>());
+  if (!surface)
     return std::nullopt;
-  return Sighting{ landmark_id, pixel, frame.camera.unproject(pixel.x(), pixel.y(), z_m),
-                   Eigen::Vector3d(normal[0], normal[1], normal[2]) };
+  return Sighting{ landmark_id, pixel, surface->p, surface->n };
 }
 
 double medianDepth_m(const std::vector<Sighting>& sightings)
@@ -61,7 +56,6 @@ NewKeyframe makeKeyframe(int id, const rgbd::Frame& frame, const ImagePyramid& p
                          bool object_only, const FeatureDetectorOptions& options, std::uint64_t* next_landmark_id)
 {
   NewKeyframe made;
-  const cv::Mat normals = rgbd::computeNormals(frame);
   std::vector<Eigen::Vector2f> occupied;
   for (const LandmarkMatch& match : matches)
   {
@@ -69,12 +63,12 @@ NewKeyframe makeKeyframe(int id, const rgbd::Frame& frame, const ImagePyramid& p
     occupied.push_back(pixel);
     made.keyframe.observations.push_back(
         { match.landmark_id, pixel, static_cast<float>(match.correspondence.depth_m) });
-    if (const std::optional<Sighting> sighting = makeSighting(match.landmark_id, pixel, frame, normals))
+    if (const std::optional<Sighting> sighting = makeSighting(match.landmark_id, pixel, frame))
       made.map.sightings.push_back(*sighting);
   }
   for (const Eigen::Vector2f& pixel : detectFeatures(frame.gray, allowedMask(frame, object_only), occupied, options))
   {
-    const std::optional<Sighting> sighting = makeSighting(*next_landmark_id, pixel, frame, normals);
+    const std::optional<Sighting> sighting = makeSighting(*next_landmark_id, pixel, frame);
     if (!sighting)
       continue;
     ++*next_landmark_id;

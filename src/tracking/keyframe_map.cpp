@@ -31,6 +31,13 @@ const WideBaselineFeatures& MapKeyframe::features() const
   return *features_;
 }
 
+const DenseReference& MapKeyframe::dense() const
+{
+  if (!dense_)
+    dense_.emplace(DensePyramid(frame, pyramid));
+  return *dense_;
+}
+
 cv::Mat makeThumbnail(const cv::Mat& gray)
 {
   cv::Mat small, thumbnail;

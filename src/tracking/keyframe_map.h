@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
+#include "dense_pyramid.h"
 #include "object_modelling/rgbd/keyframe.h"
 #include "wide_baseline_features.h"
 
@@ -28,6 +29,7 @@ struct MapKeyframe
 {
   int id = -1;
   Eigen::Isometry3d T_session_camera = Eigen::Isometry3d::Identity();
+  geometry::Matrix6d covariance = geometry::Matrix6d::Zero();  ///< of T_session_camera
   double median_depth_m = 1;
   /// Whether the pose rests on a good fit to other trusted keyframes. One that does not (blurred, in a hurry, next to
   /// nothing in view) carries the tracking on, but is not what a lost camera is placed by.
@@ -38,9 +40,12 @@ struct MapKeyframe
   cv::Mat thumbnail;  ///< CV_32FC1, small, zero mean, unit norm: finds similar views quickly
   /// Descriptors, made when first asked for: most keyframes are never relocalised against.
   const WideBaselineFeatures& features() const;
+  /// Points for dense alignment, made when first asked for.
+  const DenseReference& dense() const;
 
 private:
   mutable std::optional<WideBaselineFeatures> features_;
+  mutable std::optional<DenseReference> dense_;
 };
 
 /// Small normalised image of a view for MapKeyframe::thumbnail.

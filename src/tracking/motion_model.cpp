@@ -1,12 +1,14 @@
 #include "motion_model.h"
 
+#include <algorithm>
+
 #include "object_modelling/geometry/transform.h"
 
 namespace object_modelling::tracking
 {
 namespace
 {
-constexpr double MAX_EXTRAPOLATION_S = 0.2;  // further ahead a hand has changed its mind
+constexpr double MAX_EXTRAPOLATION_S = 0.2;  // further ahead than that and than one frame a hand has changed its mind
 }  // namespace
 
 void MotionModel::add(double stamp_s, const Eigen::Isometry3d& T_session_camera, bool continuous)
@@ -19,6 +21,7 @@ void MotionModel::add(double stamp_s, const Eigen::Isometry3d& T_session_camera,
     velocity_m_per_s_ = motion.head<3>() / (stamp_s - stamp_s_);
     angular_velocity_rad_per_s_ = motion.tail<3>() / (stamp_s - stamp_s_);
   }
+  interval_s_ = continuous ? stamp_s - stamp_s_ : 0;
   stamp_s_ = stamp_s;
   T_session_camera_ = T_session_camera;
 }
@@ -27,7 +30,7 @@ std::optional<Eigen::Isometry3d> MotionModel::predict(double stamp_s) const
 {
   if (!T_session_camera_)
     return std::nullopt;
-  const double ahead_s = std::min(stamp_s - stamp_s_, MAX_EXTRAPOLATION_S);
+  const double ahead_s = std::min(stamp_s - stamp_s_, std::max(interval_s_, MAX_EXTRAPOLATION_S));
   geometry::Vector6d motion;
   motion << velocity_m_per_s_ * ahead_s, angular_velocity_rad_per_s_ * ahead_s;
   return *T_session_camera_ * geometry::isometryFromVector(motion);

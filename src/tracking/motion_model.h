@@ -20,6 +20,7 @@ public:
 
 private:
   double stamp_s_ = 0;
+  double interval_s_ = 0;  // between the last two frames
   std::optional<Eigen::Isometry3d> T_session_camera_;
   Eigen::Vector3d velocity_m_per_s_ = Eigen::Vector3d::Zero();  // in the camera frame
   Eigen::Vector3d angular_velocity_rad_per_s_ = Eigen::Vector3d::Zero();

@@ -13,7 +13,6 @@ namespace object_modelling::tracking
 {
 namespace
 {
-constexpr double HUBER_SIGMAS = 1.345;
 constexpr double CONVERGED_STEP = 1e-7;  // m and rad
 constexpr double MIN_DEPTH_M = 0.05;
 
@@ -54,9 +53,9 @@ double score(const std::vector<Correspondence>& correspondences, const geometry:
   return sum;
 }
 
-/// Gate that lets three robust standard deviations pass, between once and twice the option: motion blur and a rolling
-/// shutter widen the errors of a whole frame.
-double adaptedGate_px(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
+/// Standard deviation of one coordinate of the reprojection errors, from their median; those beyond twice the gate are
+/// left out.
+double robustSigma_px(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
                       const Eigen::Isometry3d& T_camera_session, const PoseEstimationOptions& options)
 {
   std::vector<double> errors_px;
@@ -67,43 +66,19 @@ double adaptedGate_px(const std::vector<Correspondence>& correspondences, const 
       errors_px.push_back(std::sqrt(squared));
   }
   if (errors_px.empty())
-    return options.max_reprojection_error_px;
+    return options.pixel_sigma_px;
   const auto middle = errors_px.begin() + static_cast<std::ptrdiff_t>(errors_px.size() / 2);
   std::nth_element(errors_px.begin(), middle, errors_px.end());
   // The median of a two-dimensional error is 1.18 standard deviations of one coordinate.
-  const double gate_px = 3 * std::sqrt(2.0) * *middle / 1.18;
-  return std::clamp(gate_px, options.max_reprojection_error_px, 2 * options.max_reprojection_error_px);
+  return *middle / 1.18;
 }
-
-double huberWeight(double residual_sigmas)
-{
-  const double size = std::abs(residual_sigmas);
-  return size <= HUBER_SIGMAS ? 1.0 : HUBER_SIGMAS / size;
-}
-
-/// Weighted normal equations at a pose; the parameters are a small motion on the left of T_camera_session.
-struct NormalEquations
-{
-  geometry::Matrix6d A = geometry::Matrix6d::Zero();
-  geometry::Vector6d b = geometry::Vector6d::Zero();
-  double weighted_error = 0;
-  double weight_sum = 0;
-
-  void add(const Eigen::Matrix<double, 1, 6>& jacobian, double residual, double sigma)
-  {
-    const double weight = huberWeight(residual / sigma);
-    const double scale = weight / (sigma * sigma);
-    A.noalias() += scale * jacobian.transpose() * jacobian;
-    b.noalias() -= scale * residual * jacobian.transpose();
-    weighted_error += scale * residual * residual;
-    weight_sum += weight;
-  }
-};
 
 NormalEquations linearise(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
                           const Eigen::Isometry3d& T_camera_session, const PoseEstimationOptions& options)
 {
   NormalEquations equations;
+  const auto add = [&equations](const Eigen::Matrix<double, 1, 6>& jacobian, double residual, double sigma)
+  { equations.add(jacobian, residual, huberWeight(residual / sigma) / (sigma * sigma)); };
   const double squared_gate = options.max_reprojection_error_px * options.max_reprojection_error_px;
   for (const Correspondence& correspondence : correspondences)
   {
@@ -117,26 +92,12 @@ NormalEquations linearise(const std::vector<Correspondence>& correspondences, co
     const Eigen::Vector2d residual = camera.project(p) - correspondence.pixel;
     const Eigen::Matrix<double, 1, 6> du = camera.fx * inverse_z * (dp.row(0) - p.x() * inverse_z * dp.row(2));
     const Eigen::Matrix<double, 1, 6> dv = camera.fy * inverse_z * (dp.row(1) - p.y() * inverse_z * dp.row(2));
-    equations.add(du, residual.x(), options.pixel_sigma_px);
-    equations.add(dv, residual.y(), options.pixel_sigma_px);
+    add(du, residual.x(), options.pixel_sigma_px);
+    add(dv, residual.y(), options.pixel_sigma_px);
     if (depthCounts(correspondence, p.z(), options))
-      equations.add(dp.row(2), p.z() - correspondence.depth_m, depthSigma_m(p.z()));
+      add(dp.row(2), p.z() - correspondence.depth_m, depthSigma_m(p.z()));
   }
   return equations;
-}
-
-/// Covariance of a motion on the left of T_camera_session as one on the left of T_session_camera.
-geometry::Matrix6d inSessionFrame(const geometry::Matrix6d& covariance, const Eigen::Isometry3d& T_session_camera)
-{
-  const Eigen::Matrix3d R = T_session_camera.linear();
-  const Eigen::Vector3d t = T_session_camera.translation();
-  Eigen::Matrix3d t_cross;
-  t_cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
-  geometry::Matrix6d adjoint = geometry::Matrix6d::Zero();
-  adjoint.topLeftCorner<3, 3>() = R;
-  adjoint.topRightCorner<3, 3>() = t_cross * R;
-  adjoint.bottomRightCorner<3, 3>() = R;
-  return adjoint * covariance * adjoint.transpose();
 }
 
 int hypothesesNeeded(double inlier_ratio, const PoseEstimationOptions& options)
@@ -149,18 +110,26 @@ int hypothesesNeeded(double inlier_ratio, const PoseEstimationOptions& options)
   const double needed = std::log(1 - options.confidence_ratio) / std::log(1 - clean);
   return static_cast<int>(std::min<double>(options.max_hypotheses, std::ceil(needed)));
 }
+
 /// Least squares with a fixed gate.
 PoseEstimate solve(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
-                   const Eigen::Isometry3d& T_session_camera_start, const PoseEstimationOptions& options)
+                   const Eigen::Isometry3d& T_session_camera_start, const PoseEstimationOptions& options,
+                   const QuadraticTerm* term)
 {
   PoseEstimate estimate;
   Eigen::Isometry3d T_camera_session = T_session_camera_start.inverse();
-  NormalEquations equations;
+  const auto equationsAt = [&](const Eigen::Isometry3d& T)
+  {
+    NormalEquations equations = linearise(correspondences, camera, T, options);
+    if (term)
+      equations += term->at(T);
+    return equations;
+  };
   for (int iteration = 0; iteration < options.max_iterations; ++iteration)
   {
-    equations = linearise(correspondences, camera, T_camera_session, options);
+    const NormalEquations equations = equationsAt(T_camera_session);
     const Eigen::LDLT<geometry::Matrix6d> solver(equations.A);
-    if (equations.weight_sum < 6 || solver.info() != Eigen::Success || solver.rcond() < 1e-12)
+    if (solver.info() != Eigen::Success || solver.rcond() < 1e-12)
       return estimate;
     const geometry::Vector6d step = solver.solve(equations.b);
     T_camera_session = geometry::normalised(geometry::isometryFromVector(step) * T_camera_session);
@@ -179,31 +148,42 @@ PoseEstimate solve(const std::vector<Correspondence>& correspondences, const geo
     ++estimate.inlier_count;
     squared_sum += squared;
   }
-  if (estimate.inlier_count < 4)
+  if (estimate.inlier_count < 4 && !term)
     return estimate;
-  equations = linearise(correspondences, camera, T_camera_session, options);
-  const double variance = equations.weighted_error / std::max(1.0, equations.weight_sum - 6);
   estimate.valid = true;
   estimate.T_session_camera = T_camera_session.inverse();
-  estimate.reprojection_rmse_px = std::sqrt(squared_sum / estimate.inlier_count);
-  estimate.covariance = inSessionFrame(equations.A.inverse() * variance, estimate.T_session_camera);
+  estimate.reprojection_rmse_px = std::sqrt(squared_sum / std::max(1, estimate.inlier_count));
+  estimate.covariance = equationsAt(T_camera_session).A.inverse();
   return estimate;
 }
 
 }  // namespace
 
+NormalEquations QuadraticTerm::at(const Eigen::Isometry3d& T) const
+{
+  NormalEquations moved = equations;
+  moved.b -= equations.A * geometry::vectorFromIsometry(T * T_camera_session.inverse());
+  return moved;
+}
+
 PoseEstimate refinePose(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
-                        const Eigen::Isometry3d& T_session_camera_start, const PoseEstimationOptions& options)
+                        const Eigen::Isometry3d& T_session_camera_start, const PoseEstimationOptions& options,
+                        const QuadraticTerm* term)
 {
   PoseEstimationOptions gated = options;
   gated.max_reprojection_error_px = 2 * options.max_reprojection_error_px;
   gated.max_iterations = 3;
-  const PoseEstimate rough = solve(correspondences, camera, T_session_camera_start, gated);
+  const PoseEstimate rough = solve(correspondences, camera, T_session_camera_start, gated, term);
   if (!rough.valid)
     return rough;
-  gated.max_reprojection_error_px = adaptedGate_px(correspondences, camera, rough.T_session_camera.inverse(), options);
+  const double sigma_px = robustSigma_px(correspondences, camera, rough.T_session_camera.inverse(), options);
+  gated.pixel_sigma_px = std::max(options.min_pixel_sigma_px, sigma_px);
+  // Three standard deviations, between once and twice the option: motion blur and a rolling shutter widen the errors of
+  // a whole frame.
+  gated.max_reprojection_error_px = std::clamp(3 * std::sqrt(2.0) * sigma_px, options.max_reprojection_error_px,
+                                               2 * options.max_reprojection_error_px);
   gated.max_iterations = options.max_iterations;
-  PoseEstimate estimate = solve(correspondences, camera, rough.T_session_camera, gated);
+  PoseEstimate estimate = solve(correspondences, camera, rough.T_session_camera, gated, term);
   const Eigen::Isometry3d T_camera_session = estimate.T_session_camera.inverse();
   const double squared_gate = options.max_reprojection_error_px * options.max_reprojection_error_px;
   for (std::size_t i = 0; i < estimate.inliers.size(); ++i)

@@ -5,15 +5,18 @@
 
 #include "keyframe_maker.h"
 #include "object_modelling/base/status.h"
-#include "object_modelling/rgbd/normals.h"
+#include "object_modelling/rgbd/surface_fit.h"
 #include "stage_timer.h"
 
 namespace object_modelling::tracking
 {
 namespace
 {
-constexpr double MIN_REFERENCE_SHARE = 0.4;    // of the reference's landmarks: below it a keyframe is wanted ...
-constexpr double LAST_REFERENCE_SHARE = 0.25;  // ... and below this it is taken even from a blurred frame
+constexpr double MIN_REFERENCE_SHARE = 0.4;      // of the reference's landmarks: below it a keyframe is wanted ...
+constexpr double LAST_REFERENCE_SHARE = 0.25;    // ... and below this it is taken even from a blurred frame
+constexpr double MIN_OVERLAP = 0.6;              // of the reference's surfaces
+constexpr std::size_t MIN_SURFACE_POINTS = 500;  // with depth, at a quarter of VGA: enough to begin with ...
+constexpr int MIN_EDGE_POINTS = 100;             // ... if there is something to see on them
 constexpr double MAX_KEYFRAME_BLUR_RATIO = 0.5;
 constexpr double MAX_KEYFRAME_ANGULAR_SPEED_RAD_PER_S = 2.5;
 constexpr int MIN_FRAMES_BETWEEN_KEYFRAMES = 3;
@@ -68,29 +71,28 @@ TrackingResult CameraTracker::Implementation::trackUsable(const rgbd::Frame& fra
   last_stamp_s_ = frame.stamp_s;
 
   StageTimer timer(&result.times.pyramid_ms);
-  const ImagePyramid pyramid(frame.gray);
-  result.blur_ratio = updateBlur(frame, pyramid);
+  View view{ frame, ImagePyramid(frame.gray), {} };
+  view.dense = DensePyramid(frame, view.pyramid.levels());
+  result.blur_ratio = updateBlur(frame, view.pyramid);
   timer.stop();
   if (map_.empty())
   {
-    start(frame, pyramid, &result);
-    if (result.tracked())
-      last_pyramid_ = pyramid;
+    start(view, &result);
+    if (!result.tracked())
+      return result;
+    last_pyramid_ = view.pyramid;
+    last_dense_ = view.dense;
+    last_dense_ = view.dense;
     return result;
   }
 
   result.feature_count = static_cast<int>(last_inliers_.size());
-  Placement placement = placeByFlow(frame, pyramid, &result.times);
+  const Placement placement = place(view, &result.times);
   if (!placement.pose.valid)
   {
-    const std::string reason = placement.reason;
-    placement = placeByRecognition(frame, pyramid, &result.times);
-    if (!placement.pose.valid)
-    {
-      lost_ = true;
-      result.reason = reason + "; " + placement.reason;
-      return result;
-    }
+    lost_ = true;
+    result.reason = placement.reason;
+    return result;
   }
   result.status = lost_ ? TrackingStatus::RELOCALISED : TrackingStatus::TRACKING;
   if (lost_)
@@ -101,22 +103,26 @@ TrackingResult CameraTracker::Implementation::trackUsable(const rgbd::Frame& fra
   previous_placed_s_ = last_placed_s_;
   last_placed_s_ = frame.stamp_s;
   result.T_session_camera = placement.pose.T_session_camera;
-  result.covariance = placement.pose.covariance;
+  last_covariance_ = placement.relative_covariance;
+  result.covariance = placement.relative_covariance + placement.reference->covariance;
   result.inlier_count = placement.pose.inlier_count;
   result.reprojection_rmse_px = placement.pose.reprojection_rmse_px;
   result.speed_m_per_s = motion_.speed_m_per_s();
   result.angular_speed_rad_per_s = motion_.angularSpeed_rad_per_s();
-  considerKeyframe(frame, pyramid, placement, &result);
-  last_pyramid_ = pyramid;
+  considerKeyframe(view, placement, &result);
+  last_pyramid_ = view.pyramid;
+  last_dense_ = view.dense;
   return result;
 }
 
-void CameraTracker::Implementation::start(const rgbd::Frame& frame, const ImagePyramid& pyramid, TrackingResult* result)
+void CameraTracker::Implementation::start(const View& view, TrackingResult* result)
 {
-  camera_ = frame.camera;
-  addKeyframe(frame, pyramid, Eigen::Isometry3d::Identity(), {}, true, result);
+  camera_ = view.frame.camera;
+  addKeyframe(view, Eigen::Isometry3d::Identity(), {}, true, result);
   result->inlier_count = result->feature_count = static_cast<int>(last_inliers_.size());
-  if (result->inlier_count < options_.min_inliers)
+  const std::vector<DensePoint>& surface = map_.keyframes().back()->dense().levels().front();
+  const auto edges = std::count_if(surface.begin(), surface.end(), [](const DensePoint& p) { return p.textured; });
+  if (result->inlier_count < options_.min_inliers && (surface.size() < MIN_SURFACE_POINTS || edges < MIN_EDGE_POINTS))
   {
     result->reason = "only " + std::to_string(result->inlier_count) + " features with depth in view (at least " +
                      std::to_string(options_.min_inliers) +
@@ -127,22 +133,22 @@ void CameraTracker::Implementation::start(const rgbd::Frame& frame, const ImageP
   }
   result->status = TrackingStatus::TRACKING;
   T_robot_camera_last_ = T_robot_camera_;
-  motion_.add(frame.stamp_s, result->T_session_camera, false);
-  previous_placed_s_ = last_placed_s_ = frame.stamp_s;
+  motion_.add(view.frame.stamp_s, result->T_session_camera, false);
+  previous_placed_s_ = last_placed_s_ = view.frame.stamp_s;
 }
 
-void CameraTracker::Implementation::considerKeyframe(const rgbd::Frame& frame, const ImagePyramid& pyramid,
-                                                     const Placement& placement, TrackingResult* result)
+void CameraTracker::Implementation::considerKeyframe(const View& view, const Placement& placement,
+                                                     TrackingResult* result)
 {
   last_inliers_ = placement.inliers;
-  const bool running_out =
+  const bool few_landmarks =
       placement.reference_share < LAST_REFERENCE_SHARE || result->inlier_count < 3 * options_.min_inliers / 2;
-  // Keyframes as near to the wanted distance as the steps allow: half a step from now another frame would be the
-  // nearer.
-  const double half_step_s = 0.5 * (frame.stamp_s - previous_placed_s_);
-  const bool new_view = map_.isNewView(*motion_.predict(frame.stamp_s + half_step_s), options_.keyframe_angle_rad,
+  const bool running_out = few_landmarks && placement.overlap < MIN_OVERLAP;
+  // Wanted when the next frame would see this view from too far away.
+  const double step_s = view.frame.stamp_s - previous_placed_s_;
+  const bool new_view = map_.isNewView(*motion_.predict(view.frame.stamp_s + step_s), options_.keyframe_angle_rad,
                                        options_.keyframe_distance_ratio);
-  const bool poorly_seen = placement.reference_share < MIN_REFERENCE_SHARE &&
+  const bool poorly_seen = (placement.reference_share < MIN_REFERENCE_SHARE || placement.overlap < MIN_OVERLAP) &&
                            (placement.wide_baseline || frames_since_keyframe_ >= MIN_FRAMES_BETWEEN_KEYFRAMES);
   if (!running_out && !new_view && !poorly_seen)
     return;
@@ -154,21 +160,19 @@ void CameraTracker::Implementation::considerKeyframe(const rgbd::Frame& frame, c
     result->reason =
         "keyframe refused: turning at " + std::to_string(result->angular_speed_rad_per_s) + " rad/s, move slower";
   else
-    addKeyframe(frame, pyramid, result->T_session_camera, placement.inliers, placement.trusted && !blurred && !fast,
-                result);
+    addKeyframe(view, result->T_session_camera, placement.inliers, placement.trusted && !blurred && !fast, result);
 }
 
-void CameraTracker::Implementation::addKeyframe(const rgbd::Frame& frame, const ImagePyramid& pyramid,
-                                                const Eigen::Isometry3d& T_session_camera,
+void CameraTracker::Implementation::addKeyframe(const View& view, const Eigen::Isometry3d& T_session_camera,
                                                 const std::vector<LandmarkMatch>& matches, bool trusted,
                                                 TrackingResult* result)
 {
   const StageTimer timer(&result->times.keyframe_ms);
   FeatureDetectorOptions detector;
   detector.max_features = options_.max_features;
-  NewKeyframe made = makeKeyframe(next_keyframe_id_++, frame, pyramid, T_session_camera, matches, objectOnly(),
-                                  detector, &next_landmark_id_);
-  made.keyframe.covariance = result->covariance;
+  NewKeyframe made = makeKeyframe(next_keyframe_id_++, view.frame, view.pyramid, T_session_camera, matches,
+                                  objectOnly(), detector, &next_landmark_id_);
+  made.keyframe.covariance = made.map.covariance = result->covariance;
   made.map.trusted = trusted;
   const MapKeyframe& added = map_.add(std::move(made.map));
   result->keyframe = std::move(made.keyframe);
@@ -205,26 +209,21 @@ void CameraTracker::Implementation::resume(const std::vector<rgbd::Keyframe>& ke
     MapKeyframe known;
     known.id = keyframe.id;
     known.T_session_camera = keyframe.T_session_camera;
+    known.covariance = keyframe.covariance;
     known.frame = keyframe.frame;
     if (!objectOnly())
       known.frame.object_mask.release();
     known.pyramid = ImagePyramid(keyframe.frame.gray).copyLevels();
-    const cv::Mat normals = rgbd::computeNormals(keyframe.frame);
     std::vector<double> depths_m;
     for (const rgbd::Observation& observation : keyframe.observations)
     {
       next_landmark_id_ = std::max(next_landmark_id_, observation.landmark_id + 1);
-      if (!keyframe.frame.camera.contains(observation.pixel.cast<double>(), 1))
+      const std::optional<rgbd::SurfacePoint> surface =
+          rgbd::fitSurface(keyframe.frame, observation.pixel.cast<double>());
+      if (!surface)
         continue;
-      const auto& n = normals.at<cv::Vec3f>(static_cast<int>(std::lround(observation.pixel.y())),
-                                            static_cast<int>(std::lround(observation.pixel.x())));
-      if (std::isnan(observation.depth_m) || std::isnan(n[0]))
-        continue;
-      depths_m.push_back(observation.depth_m);
-      known.sightings.push_back(
-          { observation.landmark_id, observation.pixel,
-            keyframe.frame.camera.unproject(observation.pixel.x(), observation.pixel.y(), observation.depth_m),
-            Eigen::Vector3d(n[0], n[1], n[2]) });
+      depths_m.push_back(surface->p.z());
+      known.sightings.push_back({ observation.landmark_id, observation.pixel, surface->p, surface->n });
     }
     if (!depths_m.empty())
     {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "dense_alignment.h"
 #include "keyframe_map.h"
 #include "map_matching.h"
 #include "motion_model.h"
@@ -24,34 +25,52 @@ public:
   std::optional<Eigen::Isometry3d> predict(double stamp_s) const { return motion_.predict(stamp_s); }
 
 private:
+  /// A frame with all that is made of it once.
+  struct View
+  {
+    const rgbd::Frame& frame;
+    ImagePyramid pyramid;
+    DensePyramid dense;
+  };
+
   /// A frame that has been placed, or why it has not.
   struct Placement
   {
     PoseEstimate pose;                   ///< valid if placed
-    std::vector<LandmarkMatch> inliers;  ///< what the pose rests on
-    double reference_share = 0;
-    bool wide_baseline = false;  ///< found without optical flow
-    bool trusted = false;        ///< a good fit to trusted keyframes
+    std::vector<LandmarkMatch> inliers;  ///< what the pose rests on beside the surfaces
+    const MapKeyframe* reference = nullptr;
+    geometry::Matrix6d relative_covariance =
+        geometry::Matrix6d::Zero();  ///< session frame; without the reference's own
+    double reference_share = 0;      ///< of its landmarks that were found
+    double overlap = 0;              ///< of its surfaces that are in view
+    bool wide_baseline = false;      ///< found without the frames before
+    bool trusted = false;            ///< a good fit to trusted keyframes
     std::string reason;
   };
 
   /// track() for a frame whose object mask, if any, counts.
   TrackingResult trackUsable(const rgbd::Frame& frame);
   std::string refuse(const rgbd::Frame& frame) const;
-  /// Where the camera should be now: moved as the robot says, or on at constant velocity.
+  Placement place(const View& view, StageTimes* times) const;
+
+  /// Where the camera should be now: moved as the robot says, or on at constant velocity; and how well that is known.
   Eigen::Isometry3d predictNow(double stamp_s) const;
-  Placement placeByFlow(const rgbd::Frame& frame, const ImagePyramid& pyramid, StageTimes* times) const;
-  Placement placeByRecognition(const rgbd::Frame& frame, const ImagePyramid& pyramid, StageTimes* times) const;
-  /// Looks for the map's landmarks from a rough pose and estimates the final one; `flow` are inliers of optical flow.
-  Placement placeByMap(const rgbd::Frame& frame, const ImagePyramid& pyramid, const Eigen::Isometry3d& T_session_camera,
-                       const std::vector<LandmarkMatch>& flow, double prediction_error_px) const;
+  QuadraticTerm predictionTerm(double stamp_s) const;
+
+  Placement placeByAlignment(const View& view, StageTimes* times) const;
+  Placement placeByFlow(const View& view, StageTimes* times) const;
+  Placement placeByRecognition(const View& view, StageTimes* times) const;
+  /// From a rough pose: surfaces at the finest level, the map's landmarks, and least squares on both. `flow` are
+  /// inliers of optical flow; `prediction` may be null.
+  Placement placeNear(const View& view, const Eigen::Isometry3d& T_session_camera,
+                      const std::vector<LandmarkMatch>& flow, double prediction_error_px,
+                      const QuadraticTerm* prediction, StageTimes* times) const;
   std::string implausible(const rgbd::Frame& frame, const Eigen::Isometry3d& T_session_camera) const;
 
-  void start(const rgbd::Frame& frame, const ImagePyramid& pyramid, TrackingResult* result);
+  void start(const View& view, TrackingResult* result);
   /// Decides on a keyframe; gives why a wanted one was refused.
-  void considerKeyframe(const rgbd::Frame& frame, const ImagePyramid& pyramid, const Placement& placement,
-                        TrackingResult* result);
-  void addKeyframe(const rgbd::Frame& frame, const ImagePyramid& pyramid, const Eigen::Isometry3d& T_session_camera,
+  void considerKeyframe(const View& view, const Placement& placement, TrackingResult* result);
+  void addKeyframe(const View& view, const Eigen::Isometry3d& T_session_camera,
                    const std::vector<LandmarkMatch>& matches, bool trusted, TrackingResult* result);
   double updateBlur(const rgbd::Frame& frame, const ImagePyramid& pyramid);
   std::uint64_t seed() const { return options_.seed * 1000003 + frame_count_; }
@@ -70,11 +89,13 @@ private:
   bool lost_ = false;
   double sharpest_ = 0;
   ImagePyramid last_pyramid_;  ///< of the last frame that was placed
+  DensePyramid last_dense_;    ///< of the same
   double last_placed_s_ = 0;
   double previous_placed_s_ = 0;
-  std::vector<LandmarkMatch> last_inliers_;  ///< landmarks followed by optical flow
-  std::optional<Eigen::Isometry3d> T_robot_camera_;       ///< of this frame
-  std::optional<Eigen::Isometry3d> T_robot_camera_last_;  ///< of the last frame that was placed
+  std::vector<LandmarkMatch> last_inliers_;                          ///< landmarks followed by optical flow
+  geometry::Matrix6d last_covariance_ = geometry::Matrix6d::Zero();  ///< Placement::relative_covariance
+  std::optional<Eigen::Isometry3d> T_robot_camera_;                  ///< of this frame
+  std::optional<Eigen::Isometry3d> T_robot_camera_last_;             ///< of the last frame that was placed
 };
 
 }  // namespace object_modelling::tracking

@@ -1,0 +1,148 @@
+#include "dense_pyramid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <opencv2/imgproc.hpp>
+
+#include "object_modelling/rgbd/normals.h"
+
+namespace object_modelling::tracking
+{
+namespace
+{
+constexpr int MAX_FINEST_WIDTH = 200;  // px: VGA and its neighbours begin at a quarter
+constexpr std::size_t LEVEL_COUNT = 3;
+constexpr float SURFACE_STEP_RATIO = 0.015F;  // of depth per pixel of the finer level
+constexpr double MIN_GRADIENT = 6;            // grey levels per pixel
+constexpr std::size_t MAX_POINTS = 5000;      // per level
+
+/// Every second pixel of `depth_m` (or every step-th), averaged with those neighbours that lie on the same surface.
+cv::Mat reduceDepth(const cv::Mat& depth_m, int step, cv::Size size)
+{
+  cv::Mat reduced(size, CV_32FC1);
+  for (int v = 0; v < size.height; ++v)
+  {
+    const int y = v * step;
+    const float* rows[3] = { depth_m.ptr<float>(std::max(0, y - 1)), depth_m.ptr<float>(y),
+                             depth_m.ptr<float>(std::min(depth_m.rows - 1, y + 1)) };
+    auto* out = reduced.ptr<float>(v);
+    for (int u = 0; u < size.width; ++u)
+    {
+      const int x = std::clamp(u * step, 1, depth_m.cols - 2);
+      const float centre = rows[1][x];
+      const float gate = SURFACE_STEP_RATIO * centre;
+      float sum = 0;
+      float count = 0;
+      // Opposite neighbours go together, so that the mean of a slanted surface stays in place. NaN fails the test.
+      const auto add = [&](float a, float b)
+      {
+        if (std::abs(a - centre) <= gate && std::abs(b - centre) <= gate)
+        {
+          sum += a + b;
+          count += 2;
+        }
+      };
+      add(rows[0][x - 1], rows[2][x + 1]);
+      add(rows[0][x], rows[2][x]);
+      add(rows[0][x + 1], rows[2][x - 1]);
+      add(rows[1][x - 1], rows[1][x + 1]);
+      out[u] = count > 0 ? (sum + centre) / (count + 1) : std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  return reduced;
+}
+
+rgbd::Frame asFrame(const DenseLevel& level)
+{
+  rgbd::Frame frame;
+  frame.depth_m = level.depth_m;
+  frame.camera.width = level.depth_m.cols;
+  frame.camera.height = level.depth_m.rows;
+  frame.camera.fx = level.fx;
+  frame.camera.fy = level.fy;
+  frame.camera.cx = level.cx;
+  frame.camera.cy = level.cy;
+  return frame;
+}
+
+std::vector<DensePoint> referencePoints(const DenseLevel& level)
+{
+  rgbd::NormalOptions normal_options;
+  normal_options.radius_px = 2;
+  normal_options.max_depth_step_ratio = 0.04;
+  const cv::Mat normals = rgbd::computeNormals(asFrame(level), normal_options);
+  std::vector<DensePoint> points;
+  // A grid as fine as the number of points allows; edges always count.
+  const int grid = static_cast<int>(level.depth_m.total() / MAX_POINTS) + 1;
+  for (int v = 1; v < level.depth_m.rows - 1; ++v)
+  {
+    const auto* gray = level.gray.ptr<std::uint8_t>(v);
+    const auto* above = level.gray.ptr<std::uint8_t>(v - 1);
+    const auto* below = level.gray.ptr<std::uint8_t>(v + 1);
+    const auto* depth = level.depth_m.ptr<float>(v);
+    const auto* normal = normals.ptr<cv::Vec3f>(v);
+    const auto* mask = level.mask.empty() ? nullptr : level.mask.ptr<std::uint8_t>(v);
+    for (int u = 1; u < level.depth_m.cols - 1; ++u)
+    {
+      if (std::isnan(depth[u]) || (mask && mask[u] == 0))
+        continue;
+      const double gradient = 0.5 * std::hypot(gray[u + 1] - gray[u - 1], below[u] - above[u]);
+      DensePoint point;
+      point.textured = gradient >= MIN_GRADIENT;
+      const bool on_grid = (u + (v % 2) * grid / 2) % grid == 0;
+      if (!point.textured && !on_grid)
+        continue;
+      point.p = { (static_cast<float>(u) - level.cx) / level.fx * depth[u],
+                  (static_cast<float>(v) - level.cy) / level.fy * depth[u], depth[u] };
+      point.n.setZero();
+      if (on_grid && !std::isnan(normal[u][0]))
+        point.n = { normal[u][0], normal[u][1], normal[u][2] };
+      point.intensity = gray[u];
+      points.push_back(point);
+    }
+  }
+  // More edges than needed: every n-th, in the order of the image.
+  if (points.size() > 2 * MAX_POINTS)
+  {
+    const std::size_t every = points.size() / MAX_POINTS;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < points.size(); i += every)
+      points[kept++] = points[i];
+    points.resize(kept);
+  }
+  return points;
+}
+}  // namespace
+
+DensePyramid::DensePyramid(const rgbd::Frame& frame, const std::vector<cv::Mat>& gray_levels)
+{
+  std::size_t first = 0;
+  while (first + 1 < gray_levels.size() && gray_levels[first].cols > MAX_FINEST_WIDTH)
+    ++first;
+  for (std::size_t i = first; i < std::min(gray_levels.size(), first + LEVEL_COUNT); ++i)
+  {
+    DenseLevel level;
+    level.step = 1 << i;
+    const auto scale = 1.0F / static_cast<float>(level.step);
+    level.fx = static_cast<float>(frame.camera.fx) * scale;
+    level.fy = static_cast<float>(frame.camera.fy) * scale;
+    level.cx = static_cast<float>(frame.camera.cx) * scale;
+    level.cy = static_cast<float>(frame.camera.cy) * scale;
+    level.gray = gray_levels[i];
+    level.depth_m = levels_.empty() ? reduceDepth(frame.depth_m, level.step, level.gray.size())
+                                    : reduceDepth(levels_.back().depth_m, 2, level.gray.size());
+    if (!frame.object_mask.empty())
+      cv::resize(frame.object_mask, level.mask, level.gray.size(), 0, 0, cv::INTER_NEAREST);
+    levels_.push_back(level);
+  }
+}
+
+DenseReference::DenseReference(const DensePyramid& pyramid)
+{
+  for (const DenseLevel& level : pyramid.levels())
+    levels_.push_back(referencePoints(level));
+}
+
+}  // namespace object_modelling::tracking

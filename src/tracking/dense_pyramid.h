@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include "object_modelling/rgbd/frame.h"
+
+namespace object_modelling::tracking
+{
+/// One frame at a reduced resolution. Pixel u of it lies on pixel step * u of the frame.
+struct DenseLevel
+{
+  int step = 1;
+  float fx = 1, fy = 1, cx = 0, cy = 0;  ///< px of this level
+  cv::Mat gray;                          ///< CV_8UC1
+  cv::Mat depth_m;                       ///< CV_32FC1, NaN where missing; mean over the neighbours on the same surface
+  cv::Mat mask;                          ///< CV_8UC1: what counts; empty: all
+};
+
+/// What dense alignment needs of a frame: grey and depth at a quarter, an eighth and a sixteenth of VGA, finest first.
+class DensePyramid
+{
+public:
+  DensePyramid() = default;
+  /// `gray_levels`: full resolution first, each half of the one before (cv::pyrDown).
+  DensePyramid(const rgbd::Frame& frame, const std::vector<cv::Mat>& gray_levels);
+
+  const std::vector<DenseLevel>& levels() const { return levels_; }
+
+private:
+  std::vector<DenseLevel> levels_;
+};
+
+/// A point of a reference frame, in that camera's frame.
+struct DensePoint
+{
+  Eigen::Vector3f p;
+  Eigen::Vector3f n;  ///< towards the camera; zero where unknown: no depth residual
+  float intensity = 0;
+  bool textured = false;  ///< enough gradient for an intensity residual
+};
+
+/// Points of one frame on a grid and on its grey-level edges, level by level as in its DensePyramid.
+class DenseReference
+{
+public:
+  explicit DenseReference(const DensePyramid& pyramid);
+  const std::vector<std::vector<DensePoint>>& levels() const { return levels_; }
+
+private:
+  std::vector<std::vector<DensePoint>> levels_;
+};
+
+}  // namespace object_modelling::tracking

@@ -1,0 +1,62 @@
+#include "pose_uncertainty.h"
+
+namespace object_modelling::tracking
+{
+namespace
+{
+// Hands that turn back at once: half of it times the time squared is off the prediction.
+constexpr double ACCELERATION_M_PER_S2 = 10;
+constexpr double ANGULAR_ACCELERATION_RAD_PER_S2 = 50;
+constexpr double SYSTEMATIC_TRANSLATION_RATIO = 0.0005;  // of the depth
+constexpr double SYSTEMATIC_ROTATION_RAD = 0.0004;
+
+geometry::Matrix6d isotropic(double translation_sigma_m, double rotation_sigma_rad)
+{
+  geometry::Vector6d variances;
+  variances << Eigen::Vector3d::Constant(translation_sigma_m * translation_sigma_m),
+      Eigen::Vector3d::Constant(rotation_sigma_rad * rotation_sigma_rad);
+  return variances.asDiagonal();
+}
+
+/// Of a motion given in frame b, as one in frame a.
+geometry::Matrix6d moved(const geometry::Matrix6d& covariance, const Eigen::Isometry3d& T_a_b)
+{
+  const Eigen::Matrix3d R = T_a_b.linear();
+  const Eigen::Vector3d t = T_a_b.translation();
+  Eigen::Matrix3d t_cross;
+  t_cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
+  geometry::Matrix6d adjoint = geometry::Matrix6d::Zero();
+  adjoint.topLeftCorner<3, 3>() = R;
+  adjoint.topRightCorner<3, 3>() = t_cross * R;
+  adjoint.bottomRightCorner<3, 3>() = R;
+  return adjoint * covariance * adjoint.transpose();
+}
+}  // namespace
+
+geometry::Matrix6d inSessionFrame(const geometry::Matrix6d& covariance, const Eigen::Isometry3d& T_session_camera)
+{
+  return moved(covariance, T_session_camera);
+}
+
+geometry::Matrix6d inCameraFrame(const geometry::Matrix6d& covariance, const Eigen::Isometry3d& T_session_camera)
+{
+  return moved(covariance, T_session_camera.inverse());
+}
+
+geometry::Matrix6d handMotionCovariance(double elapsed_s)
+{
+  const double half_square_s2 = 0.5 * elapsed_s * elapsed_s;
+  return isotropic(ACCELERATION_M_PER_S2 * half_square_s2, ANGULAR_ACCELERATION_RAD_PER_S2 * half_square_s2);
+}
+
+geometry::Matrix6d robotMotionCovariance(double translation_sigma_m, double rotation_sigma_rad)
+{
+  return isotropic(translation_sigma_m, rotation_sigma_rad);
+}
+
+geometry::Matrix6d systematicCovariance(double depth_m)
+{
+  return isotropic(SYSTEMATIC_TRANSLATION_RATIO * depth_m, SYSTEMATIC_ROTATION_RAD);
+}
+
+}  // namespace object_modelling::tracking
