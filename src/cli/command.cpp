@@ -12,9 +12,9 @@ void addRecordOptions(CLI::App& command, RecordArguments* arguments)
   command
       .add_option_function<std::string>(
           "--reference", [arguments](const std::string& value) { arguments->object_reference = value == "object"; },
-          "What stands still: 'scene' (camera moves round the object; default) or 'object' (turntable, or the object "
-          "is "
-          "moved in front of the camera)")
+          "What the camera is tracked against: 'scene' (camera moves round the object; default) or 'object' "
+          "(turntable, "
+          "or the object is moved in front of the camera; masks of the recording are used if it has them)")
       ->check(CLI::IsMember({ "scene", "object" }));
   command
       .add_option("--seed", arguments->seed,

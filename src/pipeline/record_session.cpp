@@ -5,7 +5,6 @@
 #include <glog/logging.h>
 
 #include "object_modelling/base/options.h"
-#include "object_modelling/pipeline/object_follower.h"
 
 namespace object_modelling::pipeline
 {
@@ -88,7 +87,7 @@ std::vector<std::string> RecordOptions::violations() const
   check.inRange("max_unusable_ratio", max_unusable_ratio, 0.0, 1.0);
   check.include(frame.violations());
   check.include(tracker.violations());
-  check.include(segmenter.violations());
+  check.include(follower.violations());
   return check.violations();
 }
 
@@ -99,7 +98,7 @@ RecordReport recordSession(source::FrameSource& source, const keyframes::Session
   const bool object_reference = options.tracker.reference == tracking::Reference::OBJECT;
   rgbd::FrameBuilder builder(options.frame);
   tracking::CameraTracker tracker(options.tracker);
-  ObjectFollower follower(options.segmenter);
+  segmentation::ObjectFollower follower(options.follower);
 
   keyframes::Session recorded = session;
   recorded.camera_frame_id = source.frameId();
@@ -120,18 +119,25 @@ RecordReport recordSession(source::FrameSource& source, const keyframes::Session
       note("frame " + std::to_string(report.frame_count - 1) + " unusable: " + frame.status.message, &report);
       continue;
     }
+    segmentation::FollowedObject followed;
     if (object_reference)
     {
       // Without a mask the tracker says itself that the frame cannot be placed.
-      const base::Status followed = follower.follow(&frame.value);
-      if (!followed.ok())
-        note("frame " + std::to_string(report.frame_count - 1) + ": " + followed.message, &report);
+      followed = follower.follow(frame.value);
+      if (!followed.status.ok())
+        note("frame " + std::to_string(report.frame_count - 1) + ": " + followed.status.message, &report);
+      frame.value.object_mask = followed.moving();
     }
     const Clock::time_point start = Clock::now();
-    const tracking::TrackingResult result = tracker.track(frame.value);
+    tracking::TrackingResult result = tracker.track(frame.value);
     report.track_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
     if (result.keyframe)
+    {
+      // A turntable helps to track the object and is no part of it.
+      if (object_reference)
+        result.keyframe->frame.object_mask = followed.mask;
       transaction.add(*result.keyframe);
+    }
     add(result, was_lost, &report);
     was_lost = result.status == tracking::TrackingStatus::LOST;
   }

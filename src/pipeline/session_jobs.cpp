@@ -1,5 +1,9 @@
 #include "object_modelling/pipeline/session_jobs.h"
 
+#include <algorithm>
+
+#include "object_modelling/segmentation/object_follower.h"
+
 namespace object_modelling::pipeline
 {
 namespace
@@ -66,18 +70,45 @@ SegmentReport segmentSession(keyframes::SessionStore& store, const std::string& 
   return report;
 }
 
+namespace
+{
+/// Turntables count for the motion of their objects, and are not in the stored masks. The tracker knows better than a
+/// single view whether something is one: it has landmarks there.
+void addTurntables(std::vector<rgbd::Keyframe>* keyframes)
+{
+  constexpr int MIN_LANDMARKS = 5;
+  for (rgbd::Keyframe& keyframe : *keyframes)
+  {
+    if (keyframe.frame.object_mask.empty())
+      continue;
+    const cv::Mat turntable = segmentation::findTurntable(keyframe.frame);
+    const auto landmarks = std::count_if(
+        keyframe.observations.begin(), keyframe.observations.end(),
+        [&](const rgbd::Observation& seen)
+        {
+          const cv::Point pixel(cvRound(seen.pixel.x()), cvRound(seen.pixel.y()));
+          return cv::Rect({ 0, 0 }, turntable.size()).contains(pixel) && turntable.at<std::uint8_t>(pixel) != 0;
+        });
+    if (landmarks >= MIN_LANDMARKS)
+      keyframe.frame.object_mask = keyframe.frame.object_mask | turntable;
+  }
+}
+}  // namespace
+
 refinement::BundleAdjustmentResult refineSession(keyframes::SessionStore& store, const std::string& session_id,
                                                  refinement::BundleAdjustmentOptions options, base::JobControl& control)
 {
   const keyframes::Session session = store.session(session_id);
   options.object_only |= session.reference_is_object;
-  const std::vector<rgbd::Keyframe> keyframes = loadReported(store, session_id, control);
+  std::vector<rgbd::Keyframe> keyframes = loadReported(store, session_id, control);
   if (keyframes.empty())
   {
     refinement::BundleAdjustmentResult result;
     result.status = noKeyframes(session_id);
     return result;
   }
+  if (options.object_only)
+    addTurntables(&keyframes);
   refinement::BundleAdjustmentResult result = refinement::adjustBundle(keyframes, options, control);
   if (!result.status.ok())
     return result;

@@ -5,6 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "cropped_frame.h"
 #include "noise_table.h"
 #include "plane_growing.h"
 
@@ -15,19 +16,6 @@ namespace
 constexpr int MIN_POINTS = 150;
 constexpr double GATE_M = 0.004;         // distortion and pose error, on top of the noise
 constexpr double MAX_TILT_COS = 0.9986;  // 3 deg
-
-/// The part of the frame inside `area`, without a copy.
-rgbd::Frame cropped(const rgbd::Frame& frame, const cv::Rect& area)
-{
-  rgbd::Frame crop;
-  crop.depth_m = frame.depth_m(area);
-  crop.camera = frame.camera;
-  crop.camera.width = area.width;
-  crop.camera.height = area.height;
-  crop.camera.cx -= area.x;
-  crop.camera.cy -= area.y;
-  return crop;
-}
 
 /// Heights of the masked points, sorted.
 std::vector<double> heightsOf(const rgbd::Frame& frame, const cv::Mat& mask, const cv::Rect& rect,

@@ -64,21 +64,40 @@ const Recording& walkRoundBox(int frame_count, double turn_rad)
   return recording;
 }
 
-Recording turningBox(int frame_count, double turn_rad)
+namespace
+{
+/// The camera stands still, all objects of the scene turn about the world's vertical axis.
+Recording turning(test_support::SyntheticScene scene, int frame_count, double turn_rad)
 {
   Recording recording;
-  test_support::SyntheticScene scene = test_support::boxOnTable();
   const Eigen::Isometry3d T_world_camera = test_support::orbitPose({ 0, 0, 0.08 }, 0.6, 0.4, 0.6);
-  const Eigen::Isometry3d T_world_start = scene.objects[0].T_world_object;
+  const std::vector<test_support::SceneObject> start = scene.objects;
   for (int i = 0; i < frame_count; ++i)
   {
-    scene.objects[0].T_world_object =
-        T_world_start * Eigen::AngleAxisd(turn_rad * i / frame_count, Eigen::Vector3d::UnitZ());
+    for (std::size_t k = 0; k < start.size(); ++k)
+      scene.objects[k].T_world_object =
+          Eigen::AngleAxisd(turn_rad * i / frame_count, Eigen::Vector3d::UnitZ()) * start[k].T_world_object;
     recording.frames.push_back(test_support::renderFrame(scene, smallCamera(), T_world_camera,
                                                          sensorNoise(1000 * i + 1), START_S + i / RATE_HZ));
     recording.T_object_cameras.push_back(scene.objects[0].T_world_object.inverse() * T_world_camera);
   }
   return recording;
+}
+}  // namespace
+
+Recording turningBox(int frame_count, double turn_rad)
+{
+  return turning(test_support::boxOnTable(), frame_count, turn_rad);
+}
+
+Recording turntable(int frame_count, double turn_rad)
+{
+  constexpr double HEIGHT_M = 0.025;
+  test_support::SyntheticScene scene = test_support::boxOnTable();
+  scene.objects[0].T_world_object.pretranslate(Eigen::Vector3d(0, 0, HEIGHT_M));
+  scene.objects[0].texture = test_support::plainTexture();
+  scene.objects.push_back(test_support::standingCylinder(0.36, HEIGHT_M));
+  return turning(scene, frame_count, turn_rad);
 }
 
 std::optional<rgbd::RawFrame> MemorySource::next()

@@ -29,6 +29,8 @@ const Recording& walkRoundBox(int frame_count, double turn_rad);
 
 /// The camera and the table stand still, the box turns by `turn_rad` about its vertical axis.
 Recording turningBox(int frame_count, double turn_rad);
+/// The same with a plain box and a printed round table top under it that turns with it.
+Recording turntable(int frame_count, double turn_rad);
 
 /// Frames from memory as a device would deliver them, without masks. Each can be spoilt before it is delivered.
 class MemorySource : public source::FrameSource

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "object_modelling/pipeline/object_follower.h"
 #include "object_modelling/pipeline/record_session.h"
 #include "object_modelling/pipeline/session_jobs.h"
 #include "recordings.h"
@@ -9,19 +8,11 @@
 
 namespace object_modelling::pipeline
 {
-using base::StatusCode;
-
 namespace
 {
 double overlapRatio(const cv::Mat& a, const cv::Mat& b)
 {
   return static_cast<double>(cv::countNonZero(a & b)) / cv::countNonZero(a | b);
-}
-
-rgbd::Frame withoutMask(rgbd::Frame frame)
-{
-  frame.object_mask.release();
-  return frame;
 }
 }  // namespace
 
@@ -62,52 +53,38 @@ TEST(ObjectMode, FollowsATurningObjectBySegmentation)
     EXPECT_EQ(cv::countNonZero(after[i].frame.object_mask != masks[i]), 0);
 }
 
-TEST(ObjectMode, KeepsTheMasksThatAFrameBrings)
+// Round table top that turns with the object on a table that stands still. The object is plain: only the print of the
+// turntable tells how far it has turned.
+TEST(ObjectMode, TracksByTheTurntableTooAndKeepsItOutOfTheMasks)
 {
-  ObjectFollower follower({});
-  rgbd::Frame frame = walkRoundBox(24, 1.2).frames[0];
-  const cv::Mat before = frame.object_mask.clone();
-  EXPECT_TRUE(follower.follow(&frame).ok());
-  EXPECT_EQ(cv::countNonZero(before != frame.object_mask), 0);
-}
-
-TEST(ObjectMode, StaysWithTheObjectItHasAndSaysWhenItIsGone)
-{
-  test_support::SyntheticScene scene;
-  scene.objects = { test_support::standingBox({ 0.08, 0.08, 0.12 }, -0.12, 0),
-                    test_support::standingBox({ 0.08, 0.08, 0.12 }, 0.12, 0, 0, 9) };
-  const Eigen::Isometry3d T_world_camera = test_support::orbitPose({ 0, 0, 0.05 }, 0.6, -M_PI / 2, 0.6);
-  const test_support::SceneImage both = test_support::renderScene(scene, smallCamera(), T_world_camera);
-  const auto maskOf = [&both](int instance) { return cv::Mat(both.instances == instance); };
-  for (const int wanted : { 1, 2 })
+  const Recording recording = turntable(40, 2.0);
+  test_support::TempDir folder;
+  const std::unique_ptr<keyframes::SessionStore> store = keyframes::openSqlStore(folder.path("store.db"));
+  RecordOptions options;
+  options.tracker.reference = tracking::Reference::OBJECT;
+  base::JobControl control;
+  MemorySource source(recording);
+  const RecordReport with = recordSession(source, named("with"), store.get(), options, control);
+  EXPECT_EQ(with.trackedRatio(), 1) << with.first_problem;
+  const TrajectoryError error = trajectoryError(with.trajectory, recording);
+  EXPECT_LT(error.position_m, 0.01);
+  EXPECT_LT(error.angle_rad, 0.02);
+  for (const rgbd::Keyframe& keyframe : keyframes::loadKeyframes(*store, "with"))
   {
-    ObjectFollower follower({});
-    rgbd::Frame first = both.frame;
-    first.object_mask = maskOf(wanted);
-    ASSERT_TRUE(follower.follow(&first).ok());
-    rgbd::Frame second = withoutMask(both.frame);
-    ASSERT_TRUE(follower.follow(&second).ok());
-    EXPECT_GT(overlapRatio(second.object_mask, maskOf(wanted)), 0.75) << wanted;
+    const auto index = std::lround((keyframe.frame.stamp_s - recording.frames[0].stamp_s) * 30);
+    EXPECT_GT(overlapRatio(keyframe.frame.object_mask, recording.frames.at(index).object_mask), 0.75) << keyframe.id;
   }
 
-  ObjectFollower follower({});
-  rgbd::Frame first = both.frame;
-  ASSERT_TRUE(follower.follow(&first).ok());
-  scene.objects.erase(scene.objects.begin());
-  rgbd::Frame alone = withoutMask(test_support::renderFrame(scene, smallCamera(), T_world_camera));
-  const base::Status gone = follower.follow(&alone);
-  EXPECT_EQ(gone.code, StatusCode::NO_RESULT);
-  EXPECT_NE(gone.message.find("left the view or was covered"), std::string::npos) << gone.message;
-  EXPECT_TRUE(alone.object_mask.empty());
-}
-
-TEST(ObjectMode, FindsNothingOnAnEmptyTable)
-{
-  ObjectFollower follower({});
-  rgbd::Frame frame = withoutMask(test_support::renderFrame(test_support::SyntheticScene(), smallCamera(),
-                                                            test_support::orbitPose({ 0, 0, 0 }, 0.6, 0, 0.6)));
-  EXPECT_EQ(follower.follow(&frame).code, StatusCode::NO_RESULT);
-  EXPECT_TRUE(frame.object_mask.empty());
+  // Bundle adjustment takes the turntable into account again, and leaves the stored masks as they are.
+  const int before = cv::countNonZero(keyframes::loadKeyframes(*store, "with")[0].frame.object_mask);
+  const refinement::BundleAdjustmentResult refined = refineSession(*store, "with", {}, control);
+  ASSERT_TRUE(refined.status.ok()) << refined.status.message;
+  const std::vector<rgbd::Keyframe> after = keyframes::loadKeyframes(*store, "with");
+  EXPECT_EQ(cv::countNonZero(after[0].frame.object_mask), before);
+  std::vector<source::StampedPose> poses;
+  for (const rgbd::Keyframe& keyframe : after)
+    poses.push_back({ keyframe.frame.stamp_s, keyframe.T_session_camera });
+  EXPECT_LT(trajectoryError(poses, recording).position_m, 0.01);
 }
 
 }  // namespace object_modelling::pipeline

@@ -6,7 +6,7 @@
 
 #include "object_modelling/base/job_control.h"
 #include "object_modelling/keyframes/session_store.h"
-#include "object_modelling/segmentation/scene_segmenter.h"
+#include "object_modelling/segmentation/object_follower.h"
 #include "object_modelling/source/frame_source.h"
 #include "object_modelling/source/trajectory_file.h"
 #include "object_modelling/tracking/camera_tracker.h"
@@ -17,8 +17,8 @@ struct RecordOptions
 {
   rgbd::FrameBuilderOptions frame;
   tracking::CameraTrackerOptions tracker;
-  segmentation::SceneSegmenterOptions segmenter;  ///< finds the object in `object` mode where a recording has no masks
-  double max_unusable_ratio = 0.5;                ///< recordings with a larger share of unusable frames are refused
+  segmentation::ObjectFollowerOptions follower;  ///< finds the object in `object` mode where a recording has no masks
+  double max_unusable_ratio = 0.5;               ///< recordings with a larger share of unusable frames are refused
   std::vector<std::string> violations() const;
 };
 

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "object_modelling/rgbd/frame.h"
+
+namespace object_modelling::segmentation
+{
+/// Depth and camera of the part of the frame inside `area`, without a copy.
+inline rgbd::Frame cropped(const rgbd::Frame& frame, const cv::Rect& area)
+{
+  rgbd::Frame crop;
+  crop.depth_m = frame.depth_m(area);
+  crop.camera = frame.camera;
+  crop.camera.width = area.width;
+  crop.camera.height = area.height;
+  crop.camera.cx -= area.x;
+  crop.camera.cy -= area.y;
+  return crop;
+}
+
+}  // namespace object_modelling::segmentation
