@@ -11,7 +11,8 @@ namespace
 {
 namespace names = ros_bridge::names;
 
-constexpr int QUEUE_SIZE = 5;
+/// A second of images: what overflows here is lost without being counted, and pairing takes no time.
+constexpr int QUEUE_SIZE = 30;
 constexpr double WATCH_PERIOD_S = 0.5;
 constexpr double WARNING_PERIOD_S = 5;
 }  // namespace
@@ -23,14 +24,16 @@ CameraTrackerNode::CameraTrackerNode(ros::NodeHandle& node, ros::NodeHandle& pri
       record_(store_, options.stored_timeout_s),
       recording_(options, options.use_store ? &record_ : nullptr),
       publisher_(private_node, options),
-      pairer_(options.frame.max_stamp_difference_s, options.tracker.reference == tracking::Reference::OBJECT),
+      robot_(options),
+      pairer_(options.frame.max_stamp_difference_s, false),
       watch_(options.input_timeout_s, ros::WallTime::now())
 {
-  subscribe<sensor_msgs::Image>(node, names::COLOR, &FramePairer::addColor);
-  subscribe<sensor_msgs::Image>(node, names::DEPTH, &FramePairer::addDepth);
-  subscribe<sensor_msgs::CameraInfo>(node, names::CAMERA_INFO, &FramePairer::addInfo);
-  if (options.tracker.reference == tracking::Reference::OBJECT)
-    subscribe<sensor_msgs::Image>(node, names::OBJECT_MASK, &FramePairer::addMask);
+  subscribers_ = { subscribe<sensor_msgs::Image>(node, names::COLOR, &FramePairer::addColor, true),
+                   subscribe<sensor_msgs::Image>(node, names::DEPTH, &FramePairer::addDepth, true),
+                   subscribe<sensor_msgs::CameraInfo>(node, names::CAMERA_INFO, &FramePairer::addInfo, true) };
+  if (options.tracker.reference == tracking::Reference::OBJECT && options.mask_source != MaskSource::OWN)
+    mask_subscriber_ = subscribe<sensor_msgs::Image>(node, names::OBJECT_MASK, &FramePairer::addMask,
+                                                     options.mask_source == MaskSource::TOPIC);
   serve<StartTracking>(private_node, names::START, &CameraTrackerNode::start);
   serve<StopTracking>(private_node, names::STOP, &CameraTrackerNode::stop);
   serve<ResetTracking>(private_node, names::RESET, &CameraTrackerNode::reset);
@@ -46,17 +49,20 @@ CameraTrackerNode::~CameraTrackerNode()
 }
 
 template <typename Message>
-void CameraTrackerNode::subscribe(
+ros::Subscriber CameraTrackerNode::subscribe(
     ros::NodeHandle& node, const char* topic,
-    std::optional<FrameMessages> (FramePairer::*add)(const boost::shared_ptr<const Message>&))
+    std::optional<FrameMessages> (FramePairer::*add)(const boost::shared_ptr<const Message>&), bool needed)
 {
-  const std::size_t watched = watch_.add(node.resolveName(topic));
+  const std::optional<std::size_t> watched =
+      needed ? std::optional<std::size_t>(watch_.add(node.resolveName(topic))) : std::nullopt;
   const boost::function<void(const boost::shared_ptr<const Message>&)> take =
       [this, watched, add](const boost::shared_ptr<const Message>& message)
   {
     const ros::WallTime now = ros::WallTime::now();
-    watch_.heard(watched, now);
+    if (watched)
+      watch_.heard(*watched, now);
     newest_stamp_ = message->header.stamp;
+    pairer_.setWithMasks(waitsForMasks());
     std::optional<FrameMessages> frame = (pairer_.*add)(message);
     slot_.addDropped(pairer_.takeSkippedCount());
     if (!frame)
@@ -64,8 +70,15 @@ void CameraTrackerNode::subscribe(
     watch_.gotFrame(now);
     slot_.put(std::move(*frame));
   };
-  subscribers_.push_back(
-      node.subscribe<Message>(topic, QUEUE_SIZE, take, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
+  return node.subscribe<Message>(topic, QUEUE_SIZE, take, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+}
+
+bool CameraTrackerNode::waitsForMasks() const
+{
+  if (options_.tracker.reference != tracking::Reference::OBJECT)
+    return false;
+  return options_.mask_source == MaskSource::TOPIC ||
+         (options_.mask_source == MaskSource::AUTO && mask_subscriber_.getNumPublishers() > 0);
 }
 
 template <typename Service>
@@ -119,7 +132,7 @@ std::string CameraTrackerNode::inputProblem(const ros::WallTime& now) const
   if (!silent.empty())
     return silent;
   if (pairer_.waitingCount() > 0)
-    return "object mode: no mask on " + subscribers_.back().getTopic() + " has the stamp of a colour image";
+    return "object mode: no mask on " + mask_subscriber_.getTopic() + " has the stamp of a colour image";
   std::ostringstream text;
   text << "colour and depth are not synchronised: nearest stamps are " << pairer_.unpairedDifference_s()
        << " s apart, allowed are " << options_.frame.max_stamp_difference_s << " s (frame/max_stamp_difference_s)";
@@ -145,7 +158,7 @@ void CameraTrackerNode::trackFrames()
     const base::Status status = ros_bridge::guarded(
         [&]
         {
-          const TrackedFrame tracked = recording_.process(*messages, dropped_count);
+          const TrackedFrame tracked = recording_.process(*messages, dropped_count, robot_.at(messages->color->header));
           if (!tracked.state.reason.empty())
             ROS_WARN_THROTTLE(WARNING_PERIOD_S, "%s", tracked.state.reason.c_str());
           publisher_.publish(tracked);

@@ -12,6 +12,7 @@
 
 #include "input_watch.h"
 #include "newest_slot.h"
+#include "robot_motion.h"
 #include "tracking_publisher.h"
 
 namespace object_modelling::nodes
@@ -25,9 +26,11 @@ public:
   ~CameraTrackerNode();
 
 private:
+  /// `needed`: its silence is a problem.
   template <typename Message>
-  void subscribe(ros::NodeHandle& node, const char* topic,
-                 std::optional<FrameMessages> (FramePairer::*add)(const boost::shared_ptr<const Message>&));
+  ros::Subscriber subscribe(ros::NodeHandle& node, const char* topic,
+                            std::optional<FrameMessages> (FramePairer::*add)(const boost::shared_ptr<const Message>&),
+                            bool needed);
   template <typename Service>
   void serve(ros::NodeHandle& node, const char* name,
              void (CameraTrackerNode::*handler)(const typename Service::Request&, typename Service::Response&));
@@ -36,6 +39,8 @@ private:
   void stop(const StopTracking::Request& request, StopTracking::Response& response);
   void reset(const ResetTracking::Request& request, ResetTracking::Response& response);
 
+  /// Whether a frame is of no use without a mask from outside.
+  bool waitsForMasks() const;
   void watchInputs();
   std::string inputProblem(const ros::WallTime& now) const;
   void trackFrames();
@@ -45,6 +50,7 @@ private:
   SessionRecord record_;
   Recording recording_;
   TrackingPublisher publisher_;
+  RobotMotion robot_;
   FramePairer pairer_;
   InputWatch watch_;
   std::string last_problem_;
@@ -52,6 +58,7 @@ private:
   NewestSlot<FrameMessages> slot_;
   std::thread worker_;
   std::vector<ros::Subscriber> subscribers_;
+  ros::Subscriber mask_subscriber_;  ///< in object mode
   std::vector<ros::ServiceServer> servers_;
   ros::WallTimer watch_timer_;
 };

@@ -11,6 +11,17 @@ std::vector<std::string> CameraTrackerNodeOptions::violations() const
   check.inRange("input_timeout_s", input_timeout_s, 0.1, 600.0);
   check.require("session_frame_id", !session_frame_id.empty() && session_frame_id.front() != '/',
                 "must be a frame id without leading slash");
+  if (!robot.frame_id.empty())
+  {
+    check.require("robot/frame_id", robot.frame_id != session_frame_id,
+                  "must not be session_frame_id, '" + session_frame_id +
+                      "': that is what this node estimates; name a frame of the robot that does not move, its base");
+    check.require("robot/frame_id", robot.frame_id.front() != '/', "must be a frame id without leading slash");
+    check.require("tf_direction", tf_direction != TfDirection::CAMERA_BELOW_SESSION,
+                  "must not be camera_below_session where robot/frame_id is set: the camera hangs below the robot");
+  }
+  check.inRange("robot/wait_s", robot.wait_s, 0.0, 0.1);
+  check.include(follower.violations());
   check.include(tracker.violations());
   check.include(frame.violations());
   return check.violations();

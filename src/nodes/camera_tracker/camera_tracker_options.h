@@ -6,6 +6,7 @@
 #include "../common/store_parameters.h"
 #include "object_modelling/rgbd/frame_builder.h"
 #include "object_modelling/ros_bridge/remote_session_store.h"
+#include "object_modelling/segmentation/object_follower.h"
 #include "object_modelling/tracking/camera_tracker.h"
 
 namespace object_modelling::nodes
@@ -17,10 +18,27 @@ enum class TfDirection
   NONE,
 };
 
+enum class MaskSource
+{
+  AUTO,   ///< the topic if somebody publishes it, else own
+  TOPIC,  ///< object_mask
+  OWN,    ///< the node finds the object itself
+};
+
+/// A robot that carries the camera.
+struct RobotOptions
+{
+  std::string frame_id;   ///< frame that stands still with respect to what is tracked; empty: no robot
+  double wait_s = 0.005;  ///< for tf of a frame's time
+};
+
 struct CameraTrackerNodeOptions
 {
   tracking::CameraTrackerOptions tracker;
   rgbd::FrameBuilderOptions frame;
+  segmentation::ObjectFollowerOptions follower;
+  MaskSource mask_source = MaskSource::AUTO;
+  RobotOptions robot;
   ros_bridge::RemoteSessionStoreOptions store;
   bool use_store = true;  ///< sessions and keyframes go to the keyframe store; false: keyframes are published only
   double stored_timeout_s = 20;  ///< how long ~stop waits for the store to have all keyframes
@@ -43,6 +61,13 @@ void read(Reader& reader, CameraTrackerNodeOptions* options)
   reader.read("tracker/keyframe_angle_rad", options->tracker.keyframe_angle_rad);
   reader.read("tracker/keyframe_distance_ratio", options->tracker.keyframe_distance_ratio);
   reader.read("tracker/seed", options->tracker.seed);
+  reader.read("object/mask_source", options->mask_source,
+              { { "auto", MaskSource::AUTO }, { "topic", MaskSource::TOPIC }, { "own", MaskSource::OWN } });
+  reader.read("object/max_turntable_size_m", options->follower.max_turntable_size_m);
+  reader.read("robot/frame_id", options->robot.frame_id);
+  reader.read("robot/translation_sigma_m", options->tracker.robot_translation_sigma_m);
+  reader.read("robot/rotation_sigma_rad", options->tracker.robot_rotation_sigma_rad);
+  reader.read("robot/wait_s", options->robot.wait_s);
   reader.read("frame/max_stamp_difference_s", options->frame.max_stamp_difference_s);
   reader.read("frame/min_depth_ratio", options->frame.min_depth_ratio);
   reader.read("frame/min_depth_m", options->frame.min_depth_m);

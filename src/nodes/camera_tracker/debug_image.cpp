@@ -9,7 +9,7 @@ namespace object_modelling::nodes
 {
 namespace
 {
-const cv::Scalar GREEN(80, 220, 80), RED(60, 60, 230), GREY(160, 160, 160), BLACK(0, 0, 0);
+const cv::Scalar GREEN(80, 220, 80), RED(60, 60, 230), GREY(160, 160, 160), ORANGE(0, 150, 255), BLACK(0, 0, 0);
 
 cv::Scalar colorOf(const TrackingState& state)
 {
@@ -51,6 +51,12 @@ cv::Mat DebugImage::draw(const TrackedFrame& tracked) const
 {
   cv::Mat image = tracked.frame->color_bgr.clone();
   const cv::Scalar color = colorOf(tracked.state);
+  if (!tracked.frame->object_mask.empty())
+  {
+    std::vector<std::vector<cv::Point>> outlines;
+    cv::findContours(tracked.frame->object_mask.clone(), outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+    cv::drawContours(image, outlines, -1, ORANGE, 1);
+  }
   if (tracked.result && tracked.result->tracked())
   {
     const Eigen::Isometry3d T_camera_session = tracked.result->T_session_camera.inverse();

@@ -10,7 +10,8 @@
 namespace object_modelling::nodes
 {
 /// Picture of one frame for people: a border in the colour of the state, the newest keyframe's landmarks where the
-/// estimated pose puts them (they sit on their corners as long as the pose is right), figures. Not thread safe.
+/// estimated pose puts them (they sit on their corners as long as the pose is right), the outline of what is tracked in
+/// object mode, figures. Not thread safe.
 class DebugImage
 {
 public:

@@ -7,8 +7,9 @@ namespace object_modelling::nodes
 {
 namespace
 {
-/// Images that wait for a partner; drivers deliver the two within a few frames of each other.
-constexpr std::size_t MAX_UNPAIRED = 8;
+/// Images that wait for a partner: as many as a subscriber's queue holds, since each topic has its own connection and a
+/// burst of one may come before that of the other.
+constexpr std::size_t MAX_UNPAIRED = 30;
 /// Pairs that wait for their mask, which a segmenter makes from them.
 constexpr std::size_t MAX_WAITING = 30;
 

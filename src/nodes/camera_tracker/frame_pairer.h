@@ -25,6 +25,9 @@ class FramePairer
 public:
   FramePairer(double max_stamp_difference_s, bool with_masks);
 
+  /// Whether frames wait for their masks from now on.
+  void setWithMasks(bool with_masks) { with_masks_ = with_masks; }
+
   /// Each gives the frame that this message completes, if any.
   std::optional<FrameMessages> addColor(const sensor_msgs::Image::ConstPtr& message);
   std::optional<FrameMessages> addDepth(const sensor_msgs::Image::ConstPtr& message);

@@ -1,6 +1,7 @@
 #include "recording.h"
 
 #include <ctime>
+#include <sstream>
 
 #include "object_modelling/ros_bridge/frame_conversion.h"
 #include "object_modelling/ros_bridge/image_conversion.h"
@@ -43,7 +44,11 @@ void describe(const tracking::TrackingResult& result, TrackingState* state)
 }  // namespace
 
 Recording::Recording(const CameraTrackerNodeOptions& options, SessionRecord* record)
-    : options_(options), record_(record), builder_(options.frame), tracker_(options.tracker)
+    : options_(options),
+      record_(record),
+      builder_(options.frame),
+      follower_(options.follower),
+      tracker_(options.tracker)
 {
 }
 
@@ -66,6 +71,9 @@ std::string Recording::start(const std::string& session_id, const std::string& o
     requireId(object_id, "object id");
 
   tracker_.reset();
+  follower_.reset();
+  last_stamp_ = ros::Time();
+  robot_problem_.clear();
   int keyframe_count = 0;
   if (resume)
   {
@@ -159,21 +167,55 @@ void Recording::createSession(const std_msgs::Header& header)
   created_ = true;
 }
 
-void Recording::track(const rgbd::Frame& frame, const std_msgs::Header& header, TrackedFrame* tracked)
+void Recording::requireNewer(const ros::Time& stamp)
 {
+  if (!last_stamp_.isZero() && stamp <= last_stamp_)
+  {
+    std::ostringstream text;
+    text << std::fixed << "stamp " << stamp.toSec() << " s is not newer than " << last_stamp_.toSec()
+         << " s, the newest of this session: is a recording played again, or has a clock been set back? Call ~stop and "
+            "~start for a new session";
+    throw base::Error(base::StatusCode::BAD_INPUT, text.str());
+  }
+  last_stamp_ = stamp;
+}
+
+void Recording::track(const std_msgs::Header& header, const RobotPose& robot, TrackedFrame* tracked)
+{
+  rgbd::Frame& frame = *tracked->frame;
   createSession(header);
   ++state_.frame_count;
-  tracked->result = tracker_.track(frame);
-  state_.tracked_count += tracked->result->tracked() ? 1 : 0;
-  if (tracked->result->keyframe)
+  requireNewer(header.stamp);
+  segmentation::FollowedObject object;
+  if (options_.tracker.reference == tracking::Reference::OBJECT)
   {
+    object = follower_.follow(frame);
+    frame.object_mask = object.moving();
+  }
+  tracked->result = tracker_.track(frame, robot.T_robot_camera);
+  tracking::TrackingResult& result = *tracked->result;
+  if (!object.status.ok())
+    result.reason = "no object in view: " + object.status.message;
+  state_.tracked_count += result.tracked() ? 1 : 0;
+  if (result.keyframe)
+  {
+    // A turntable helps to track the object and is no part of it.
+    if (options_.tracker.reference == tracking::Reference::OBJECT)
+      result.keyframe->frame.object_mask = object.mask;
     ++state_.keyframe_count;
     ++sent_keyframes_;
   }
-  state_.status = static_cast<std::uint8_t>(tracked->result->status);
+  state_.status = static_cast<std::uint8_t>(result.status);
 }
 
-TrackedFrame Recording::process(const FrameMessages& messages, std::size_t dropped_count)
+void Recording::say(const RobotPose& robot, std::string* reason)
+{
+  if (!robot.problem.empty() && robot.problem != robot_problem_)
+    *reason += (reason->empty() ? "" : "; ") + robot.problem + (robot.detail.empty() ? "" : " (" + robot.detail + ")");
+  robot_problem_ = robot.problem;
+}
+
+TrackedFrame Recording::process(const FrameMessages& messages, std::size_t dropped_count, const RobotPose& robot)
 {
   const ros::WallTime begin = ros::WallTime::now();
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -183,15 +225,20 @@ TrackedFrame Recording::process(const FrameMessages& messages, std::size_t dropp
   const base::Status usable = ros_bridge::guarded([&] { tracked.frame = frameOf(messages); });
   base::Status done = usable;
   if (usable.ok() && state_.recording)
-    done = ros_bridge::guarded([&] { track(*tracked.frame, messages.color->header, &tracked); });
+    done = ros_bridge::guarded([&] { track(messages.color->header, robot, &tracked); });
   if (!done.ok() && state_.status != TrackingState::NOT_STARTED)
     state_.status = TrackingState::LOST;
   state_.input_ok = usable.ok();
   tracked.state = state_;
   if (tracked.result)
+  {
     describe(*tracked.result, &tracked.state);
+    tracked.state.robot_motion_used = robot.T_robot_camera.has_value();
+  }
   if (!done.ok())
     tracked.state.reason = done.message;
+  if (state_.recording)
+    say(robot, &tracked.state.reason);
   tracked.state.header = messages.color->header;
   tracked.state.processing_s = static_cast<float>((ros::WallTime::now() - begin).toSec());
   return tracked;

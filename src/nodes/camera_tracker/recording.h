@@ -10,6 +10,7 @@
 #include "camera_tracker_options.h"
 #include "frame_pairer.h"
 #include "object_modelling/rgbd/frame_builder.h"
+#include "robot_motion.h"
 #include "session_record.h"
 
 namespace object_modelling::nodes
@@ -37,8 +38,8 @@ public:
   /// Back to idle; gives the id of the session that was left, or nothing.
   std::string reset();
 
-  /// `dropped_count`: frames lost before this one.
-  TrackedFrame process(const FrameMessages& messages, std::size_t dropped_count);
+  /// `dropped_count`: frames lost before this one. What is wrong with the robot's pose is said once.
+  TrackedFrame process(const FrameMessages& messages, std::size_t dropped_count, const RobotPose& robot);
   /// State when there is no frame to tell of.
   object_modelling::TrackingState state(const ros::Time& now);
   /// The same for an input problem.
@@ -46,17 +47,22 @@ public:
 
 private:
   rgbd::Frame frameOf(const FrameMessages& messages);
-  void track(const rgbd::Frame& frame, const std_msgs::Header& header, TrackedFrame* tracked);
+  void track(const std_msgs::Header& header, const RobotPose& robot, TrackedFrame* tracked);
+  void requireNewer(const ros::Time& stamp);
+  void say(const RobotPose& robot, std::string* reason);
   void createSession(const std_msgs::Header& header);
 
   std::mutex mutex_;
   CameraTrackerNodeOptions options_;
   SessionRecord* record_;
   rgbd::FrameBuilder builder_;
+  segmentation::ObjectFollower follower_;
   tracking::CameraTracker tracker_;
   keyframes::Session session_;
   bool created_ = false;  ///< the session is in the store, or need not be
   int sent_keyframes_ = 0;
+  ros::Time last_stamp_;                   ///< of the session; 0 before its first frame
+  std::string robot_problem_;              ///< that has been said and has not gone since
   object_modelling::TrackingState state_;  ///< running counts; what a frame says is filled in a copy
 };
 

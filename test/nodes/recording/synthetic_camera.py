@@ -24,14 +24,15 @@ def _texture(size, seed):
 
 
 class Scene:
-    """A table that falls away from the camera and a wall behind it; p_world = p of the first camera."""
+    """A table that falls away from the camera and a wall behind it; p_world = p of the first camera. The print repeats
+    every 1.5 mm x `texture_size`."""
 
-    def __init__(self):
+    def __init__(self, texture_size=1024):
         self._planes = [  # normal, offset (n.p = d), two axes on the plane
             (np.array([0.0, -0.8, -0.6]), -0.55, np.array([1.0, 0, 0]), np.array([0, 0.6, -0.8])),
             (np.array([0.0, 0.0, -1.0]), -1.0, np.array([1.0, 0, 0]), np.array([0, 1.0, 0])),
         ]
-        self._textures = [_texture(1024, 1), _texture(1024, 2)]
+        self._textures = [_texture(texture_size, 1), _texture(texture_size, 2)]
         u, v = np.meshgrid(np.arange(WIDTH), np.arange(HEIGHT))
         self._rays = np.stack([(u - (WIDTH - 1) / 2) / FOCAL, (v - (HEIGHT - 1) / 2) / FOCAL, np.ones(u.shape)], -1)
 
@@ -68,6 +69,20 @@ class Scene:
         return (at(0, 0) * (1 - fx) + at(1, 0) * fx) * (1 - fy) + (at(0, 1) * (1 - fx) + at(1, 1) * fx) * fy
 
 
+class StepwiseScene(Scene):
+    """Print that looks the same every 48 mm, and a camera that stands still and steps 30 mm aside: what moves least to
+    explain the image is a step of 18 mm the other way."""
+
+    STEP_M, FRAMES_PER_STEP = 0.030, 3
+
+    def __init__(self):
+        Scene.__init__(self, texture_size=32)
+
+    @classmethod
+    def world_from_camera(cls, index):
+        return np.eye(3), np.array([cls.STEP_M * (index // cls.FRAMES_PER_STEP), 0, 0])
+
+
 SCENE = Scene()
 
 
@@ -82,12 +97,15 @@ def image_message(array, encoding, stamp, frame_id):
 class SyntheticCamera:
     """Publishes frames under `namespace`, and hears what the tracker there says of them."""
 
-    def __init__(self, namespace, frame_id="camera_optical", with_info=True, with_masks=False):
+    def __init__(self, namespace, frame_id="camera_optical", with_info=True, with_masks=False, scene=SCENE,
+                 queue_size=10):
         self.frame_id = frame_id
-        self._color = rospy.Publisher(namespace + "/rgb/image_rect_color", Image, queue_size=10)
-        self._depth = rospy.Publisher(namespace + "/depth_registered/image_rect", Image, queue_size=10)
-        self._info = rospy.Publisher(namespace + "/rgb/camera_info", CameraInfo, queue_size=10) if with_info else None
-        self._mask = rospy.Publisher(namespace + "/object_mask", Image, queue_size=10) if with_masks else None
+        self.scene = scene
+        publisher = lambda topic, kind: rospy.Publisher(namespace + topic, kind, queue_size=queue_size)
+        self._color = publisher("/rgb/image_rect_color", Image)
+        self._depth = publisher("/depth_registered/image_rect", Image)
+        self._info = publisher("/rgb/camera_info", CameraInfo) if with_info else None
+        self._mask = publisher("/object_mask", Image) if with_masks else None
         self._changed = threading.Condition()
         self.states = []
         self._subscriber = rospy.Subscriber(namespace + "/camera_tracker/state", TrackingState, self._on_state,
@@ -124,7 +142,7 @@ class SyntheticCamera:
              covered=False, without_depth=False, depth_frame_id=None, with_mask=True):
         """Publishes the view of place `index` with the next stamp; returns the stamp."""
         self.stamp += rospy.Duration(FRAME_PERIOD_S)
-        color, depth = SCENE.render(index)
+        color, depth = self.scene.render(index)
         if covered:
             color = color // 64
         if covered or without_depth:
@@ -146,6 +164,20 @@ class SyntheticCamera:
         self._color.publish(image_message(color, color_encoding, self.stamp, self.frame_id))
         self._depth.publish(image_message(depth, depth_encoding, self.stamp + rospy.Duration(depth_shift_s),
                                           depth_frame_id or self.frame_id))
+        return self.stamp
+
+    def send_at_once(self, indices):
+        """Publishes views without any pause, as fast as they can be written; returns the last stamp."""
+        messages = []
+        for index in indices:
+            self.stamp += rospy.Duration(FRAME_PERIOD_S)
+            color, depth = self.scene.render(index)
+            messages.append((image_message(color, "bgr8", self.stamp, self.frame_id),
+                             image_message(depth.astype(np.float32), "32FC1", self.stamp, self.frame_id)))
+        self._info.publish(self.camera_info())
+        for color, depth in messages:
+            self._color.publish(color)
+            self._depth.publish(depth)
         return self.stamp
 
     def camera_info(self):
