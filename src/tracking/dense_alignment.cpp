@@ -19,6 +19,7 @@ constexpr float AGREEMENT_SIGMAS = 3;
 constexpr float AGREEMENT_RATIO = 0.005F;  // of depth, for what calibration and oblique surfaces add
 constexpr double CONVERGED_STEP = 1e-4;    // m and rad; the least squares with features goes on from there
 constexpr std::size_t MIN_POINTS = 60;
+constexpr int SCALE_SAMPLES = 3;  // every so many residuals tell the robust scale well enough
 
 /// A reference point as the frame sees it.
 struct Seen
@@ -95,25 +96,28 @@ float cauchyWeight(float residual_scales)
 }
 
 /// Sums of one kind of residual, whose Jacobian is [a; q x a] for a motion on the left of the camera's transform.
-struct Sums
+class Sums
 {
-  Eigen::Matrix<float, 6, 6> A = Eigen::Matrix<float, 6, 6>::Zero();
-  Eigen::Matrix<float, 6, 1> b = Eigen::Matrix<float, 6, 1>::Zero();
-
+public:
   void add(const Eigen::Vector3f& q, const Eigen::Vector3f& a, float residual, float weight)
   {
-    Eigen::Matrix<float, 6, 1> jacobian;
-    jacobian << a, q.cross(a);
-    const Eigen::Matrix<float, 6, 1> weighted = weight * jacobian;
+    const Eigen::Vector3f moment = q.cross(a);
+    // Six entries, the residual, and nothing: two registers of four.
+    Row row;
+    row << a.x(), a.y(), a.z(), moment.x(), moment.y(), moment.z(), residual, 0;
+    const Row weighted = weight * row;
     for (int column = 0; column < 6; ++column)
-      A.col(column) += weighted(column) * jacobian;
-    b -= residual * weighted;
+      products_.col(column) += row(column) * weighted;
   }
   void addTo(NormalEquations* equations, double factor) const
   {
-    equations->A += factor * A.cast<double>();
-    equations->b += factor * b.cast<double>();
+    equations->A += factor * products_.topRows<6>().cast<double>();
+    equations->b -= factor * products_.row(6).transpose().cast<double>();
   }
+
+private:
+  using Row = Eigen::Matrix<float, 8, 1>;
+  Eigen::Matrix<float, 8, 6> products_ = Eigen::Matrix<float, 8, 6>::Zero();
 };
 
 /// Brings the exposure of the frame to that of the reference: equal mean and spread over what both see. Gives the
@@ -196,7 +200,7 @@ DenseTerm evaluateDense(const std::vector<DensePoint>& points, const DenseLevel&
                     foreshortening * (AGREEMENT_SIGMAS * s.depth_sigma + AGREEMENT_RATIO * s.q.z());
         s.depth_sigma *= foreshortening;
         s.has_depth = std::abs(step_m) <= MAX_DEPTH_STEP_RATIO * s.q.z();
-        if (s.has_depth)
+        if (s.has_depth && with_depth % SCALE_SAMPLES == 0)
           depth_sizes.push_back(std::abs(s.depth_residual / s.depth_sigma));
       }
     }
@@ -215,9 +219,9 @@ DenseTerm evaluateDense(const std::vector<DensePoint>& points, const DenseLevel&
   if (seen.size() < MIN_POINTS)
     return term;
   term.correlation = compensateExposure(&seen);
-  for (const Seen& s : seen)
-    if (s.textured)
-      intensity_sizes.push_back(std::abs(s.intensity_residual));
+  for (std::size_t i = 0; i < seen.size(); i += SCALE_SAMPLES)
+    if (seen[i].textured)
+      intensity_sizes.push_back(std::abs(seen[i].intensity_residual));
   const float depth_scale = std::max(1.0F, robustScale(&depth_sizes));
   const float intensity_scale = std::max(MIN_INTENSITY_SCALE, robustScale(&intensity_sizes));
   term.intensity_scale = intensity_scale;

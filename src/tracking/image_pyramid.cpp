@@ -17,9 +17,8 @@ constexpr float BORDER_PX = 8;
 
 ImagePyramid::ImagePyramid(const cv::Mat& gray)
 {
-  const int built = cv::buildOpticalFlowPyramid(gray, flow_, WINDOW, MAX_LEVEL, true);
-  for (int level = 0; level <= built; ++level)
-    levels_.push_back(flow_[2 * level]);
+  const int built = cv::buildOpticalFlowPyramid(gray, levels_, WINDOW, MAX_LEVEL, false);
+  levels_.resize(static_cast<std::size_t>(built) + 1);
 }
 
 std::vector<cv::Mat> ImagePyramid::copyLevels() const
@@ -56,7 +55,7 @@ std::vector<FlowFeature> trackFlow(const ImagePyramid& last, const ImagePyramid&
   }
   std::vector<unsigned char> found;
   std::vector<float> errors;
-  cv::calcOpticalFlowPyrLK(last.flow(), current.flow(), from, to, found, errors, WINDOW, MAX_LEVEL,
+  cv::calcOpticalFlowPyrLK(last.levels(), current.levels(), from, to, found, errors, WINDOW, MAX_LEVEL,
                            cv::TermCriteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 15, 0.03),
                            cv::OPTFLOW_USE_INITIAL_FLOW, MIN_EIGENVALUE);
   const cv::Size size = current.levels()[0].size();

@@ -7,23 +7,22 @@
 
 namespace object_modelling::tracking
 {
-/// Grey pyramid of one frame with its derivatives, made once for optical flow and patch refinement.
+/// Grey pyramid of one frame, made once for optical flow, patch refinement and dense alignment.
 class ImagePyramid
 {
 public:
   ImagePyramid() = default;
   explicit ImagePyramid(const cv::Mat& gray);
 
-  bool empty() const { return flow_.empty(); }
-  const std::vector<cv::Mat>& flow() const { return flow_; }      ///< as cv::buildOpticalFlowPyramid makes it
-  const std::vector<cv::Mat>& levels() const { return levels_; }  ///< grey levels alone, full resolution first
-  /// Copy of the grey levels without derivatives, for keeping.
+  bool empty() const { return levels_.empty(); }
+  /// Full resolution first; as cv::buildOpticalFlowPyramid makes them, with a border round each.
+  const std::vector<cv::Mat>& levels() const { return levels_; }
+  /// Copy without borders, for keeping.
   std::vector<cv::Mat> copyLevels() const;
   /// Mean absolute Laplacian at half resolution: what blur takes away. Over `mask` (full resolution) if not empty.
   double sharpness(const cv::Mat& mask) const;
 
 private:
-  std::vector<cv::Mat> flow_;
   std::vector<cv::Mat> levels_;
 };
 

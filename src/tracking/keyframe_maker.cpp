@@ -66,7 +66,7 @@ NewKeyframe makeKeyframe(int id, const rgbd::Frame& frame, const ImagePyramid& p
     if (const std::optional<Sighting> sighting = makeSighting(match.landmark_id, pixel, frame))
       made.map.sightings.push_back(*sighting);
   }
-  for (const Eigen::Vector2f& pixel : detectFeatures(frame.gray, allowedMask(frame, object_only), occupied, options))
+  for (const Eigen::Vector2f& pixel : detectFeatures(pyramid, allowedMask(frame, object_only), occupied, options))
   {
     const std::optional<Sighting> sighting = makeSighting(*next_landmark_id, pixel, frame);
     if (!sighting)

@@ -48,6 +48,14 @@ private:
     std::string reason;
   };
 
+  /// A pose and how the surfaces of a keyframe fit there.
+  struct Surfaces
+  {
+    const MapKeyframe* reference = nullptr;  ///< null if none looks this way
+    DenseAlignment aligned;
+    bool chained = false;  ///< aligned with the frame before instead
+  };
+
   /// track() for a frame whose object mask, if any, counts.
   TrackingResult trackUsable(const rgbd::Frame& frame);
   std::string refuse(const rgbd::Frame& frame) const;
@@ -60,11 +68,12 @@ private:
   Placement placeByAlignment(const View& view, StageTimes* times) const;
   Placement placeByFlow(const View& view, StageTimes* times) const;
   Placement placeByRecognition(const View& view, StageTimes* times) const;
-  /// From a rough pose: surfaces at the finest level, the map's landmarks, and least squares on both. `flow` are
-  /// inliers of optical flow; `prediction` may be null.
-  Placement placeNear(const View& view, const Eigen::Isometry3d& T_session_camera,
-                      const std::vector<LandmarkMatch>& flow, double prediction_error_px,
-                      const QuadraticTerm* prediction, StageTimes* times) const;
+  /// Surfaces of the nearest keyframe at the finest level, from a pose that is close.
+  Surfaces surfacesNear(const View& view, const Eigen::Isometry3d& T_session_camera, StageTimes* times) const;
+  /// From a pose near by: the map's landmarks, and least squares on them, the surfaces and the prediction (may be
+  /// null). `flow` are inliers of optical flow.
+  Placement placeNear(const View& view, const Surfaces& surfaces, const std::vector<LandmarkMatch>& flow,
+                      double prediction_error_px, const QuadraticTerm* prediction, StageTimes* times) const;
   std::string implausible(const rgbd::Frame& frame, const Eigen::Isometry3d& T_session_camera) const;
 
   void start(const View& view, TrackingResult* result);

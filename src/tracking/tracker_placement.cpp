@@ -136,6 +136,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByA
   const MapKeyframe& reference = *nearest.front();
   DenseAlignment aligned = alignDense(reference.dense(), reference.T_session_camera, view.dense, T_session_predicted,
                                       prediction.equations.A);
+  bool chained = false;
   if (!convincing(aligned.term))
   {
     // The frame before shows most of the same, and a hand that turned back is nearer to where it was.
@@ -143,8 +144,10 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByA
     for (const Eigen::Isometry3d& T_start : { T_session_predicted, *motion_.last() })
     {
       const DenseAlignment other = alignDense(last, *motion_.last(), view.dense, T_start, prediction.equations.A);
-      if (quality(other.term) > quality(aligned.term))
-        aligned = other;
+      if (quality(other.term) <= quality(aligned.term))
+        continue;
+      aligned = other;
+      chained = true;
     }
   }
   timer.stop();
@@ -153,7 +156,14 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByA
     placement.reason = "surfaces do not fit what was seen before: " + describe(aligned.term);
     return placement;
   }
-  placement = placeNear(view, aligned.T_session_camera, {}, ALIGNMENT_ERROR_PX, &prediction, times);
+  Surfaces surfaces = { &reference, aligned, false };
+  if (chained)
+  {
+    surfaces = surfacesNear(view, aligned.T_session_camera, times);
+    if (!convincing(surfaces.aligned.term))
+      surfaces = { surfaces.reference, aligned, true };
+  }
+  placement = placeNear(view, surfaces, {}, ALIGNMENT_ERROR_PX, &prediction, times);
   if (placement.pose.valid)
   {
     placement.reason = implausible(view.frame, placement.pose.T_session_camera);
@@ -206,8 +216,8 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByF
                        std::to_string(last_inliers_.size()) + " landmarks consistent";
     return placement;
   }
-  placement =
-      placeNear(view, rough.T_session_camera, inliersOf(matches, rough), FLOW_PREDICTION_ERROR_PX, &prediction, times);
+  placement = placeNear(view, surfacesNear(view, rough.T_session_camera, times), inliersOf(matches, rough),
+                        FLOW_PREDICTION_ERROR_PX, &prediction, times);
   if (placement.pose.valid)
   {
     placement.reason = implausible(frame, placement.pose.T_session_camera);
@@ -225,7 +235,8 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByR
   if (by_surfaces)
   {
     timer.stop();
-    Placement placement = placeNear(view, by_surfaces->T_session_camera, {}, ALIGNMENT_ERROR_PX, nullptr, times);
+    Placement placement = placeNear(view, surfacesNear(view, by_surfaces->T_session_camera, times), {},
+                                    ALIGNMENT_ERROR_PX, nullptr, times);
     placement.wide_baseline = true;
     if (placement.pose.valid)
       return placement;
@@ -238,32 +249,46 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByR
     placement.reason = found.reason;
     return placement;
   }
-  Placement placement = placeNear(view, found.pose.T_session_camera, {}, RECOGNITION_ERROR_PX, nullptr, times);
+  Placement placement =
+      placeNear(view, surfacesNear(view, found.pose.T_session_camera, times), {}, RECOGNITION_ERROR_PX, nullptr, times);
   placement.wide_baseline = true;
   return placement;
 }
 
-CameraTracker::Implementation::Placement CameraTracker::Implementation::placeNear(
-    const View& view, const Eigen::Isometry3d& T_session_camera, const std::vector<LandmarkMatch>& flow,
-    double prediction_error_px, const QuadraticTerm* prediction, StageTimes* times) const
+CameraTracker::Implementation::Surfaces CameraTracker::Implementation::surfacesNear(
+    const View& view, const Eigen::Isometry3d& T_session_camera, StageTimes* times) const
 {
-  Placement placement;
+  const StageTimer timer(&times->dense_ms);
+  Surfaces surfaces;
+  surfaces.aligned.T_session_camera = T_session_camera;
   const std::vector<const MapKeyframe*> nearest = map_.nearestViews(T_session_camera, 1);
   if (nearest.empty())
+    return surfaces;
+  surfaces.reference = nearest.front();
+  DenseAlignmentOptions finest;
+  finest.coarsest_level = 0;
+  finest.max_iterations = 2;
+  const DenseAlignment aligned = alignDense(surfaces.reference->dense(), surfaces.reference->T_session_camera,
+                                            view.dense, T_session_camera, geometry::Matrix6d::Zero(), finest);
+  if (plausible(aligned.term))
+    surfaces.aligned = aligned;
+  return surfaces;
+}
+
+CameraTracker::Implementation::Placement CameraTracker::Implementation::placeNear(
+    const View& view, const Surfaces& surfaces, const std::vector<LandmarkMatch>& flow, double prediction_error_px,
+    const QuadraticTerm* prediction, StageTimes* times) const
+{
+  Placement placement;
+  if (!surfaces.reference)
   {
     placement.reason = "no keyframe looks this way";
     return placement;
   }
-  placement.reference = nearest.front();
-  const MapKeyframe& reference = *placement.reference;
-
-  StageTimer dense_timer(&times->dense_ms);
-  DenseAlignmentOptions finest;
-  finest.coarsest_level = 0;
-  finest.max_iterations = 2;
-  const DenseAlignment aligned = alignDense(reference.dense(), reference.T_session_camera, view.dense, T_session_camera,
-                                            geometry::Matrix6d::Zero(), finest);
-  dense_timer.stop();
+  placement.reference = surfaces.reference;
+  const MapKeyframe& reference = *surfaces.reference;
+  const DenseAlignment& aligned = surfaces.aligned;
+  const Eigen::Isometry3d& T_session_camera = aligned.T_session_camera;
   const bool surfaces_fit = plausible(aligned.term);
   placement.overlap = aligned.term.overlap;
 
@@ -294,10 +319,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeNea
   QuadraticTerm term;
   term.T_camera_session = T_session_camera.inverse();
   if (surfaces_fit)
-  {
-    term.T_camera_session = aligned.T_session_camera.inverse();
     term.equations = aligned.term.equations;
-  }
   if (prediction)
     term.equations += prediction->at(term.T_camera_session);
   placement.pose =
@@ -323,6 +345,8 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeNea
   placement.inliers = inliersOf(found.matches, placement.pose);
   placement.relative_covariance = inSessionFrame(
       placement.pose.covariance + systematicCovariance(reference.median_depth_m), placement.pose.T_session_camera);
+  if (surfaces.chained)
+    placement.relative_covariance += last_covariance_;
   const bool landmarks_trusted =
       countTrusted(placement.inliers) == placement.pose.inlier_count &&
       placement.pose.reprojection_rmse_px <= TRUSTED_RMSE_RATIO * options_.max_reprojection_error_px;
