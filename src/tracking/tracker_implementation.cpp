@@ -143,7 +143,10 @@ void CameraTracker::Implementation::considerKeyframe(const View& view, const Pla
   last_inliers_ = placement.inliers;
   const bool few_landmarks =
       placement.reference_share < LAST_REFERENCE_SHARE || result->inlier_count < 3 * options_.min_inliers / 2;
-  const bool running_out = few_landmarks && placement.overlap < MIN_OVERLAP;
+  // Too far from all keyframes, a bad one is better than none.
+  const bool running_out =
+      (few_landmarks && placement.overlap < MIN_OVERLAP) ||
+      map_.isNewView(result->T_session_camera, 2 * options_.keyframe_angle_rad, 2 * options_.keyframe_distance_ratio);
   // Wanted when the next frame would see this view from too far away.
   const double step_s = view.frame.stamp_s - previous_placed_s_;
   const bool new_view = map_.isNewView(*motion_.predict(view.frame.stamp_s + step_s), options_.keyframe_angle_rad,
