@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "depth_sampling.h"
 #include "feature_detector.h"
@@ -53,6 +55,72 @@ TEST(FeatureDetector, FindsNothingInPlainOrTinyImages)
 {
   EXPECT_TRUE(detectFeatures(cv::Mat(100, 100, CV_8UC1, cv::Scalar(77)), {}, {}, {}).empty());
   EXPECT_TRUE(detectFeatures(cv::Mat(10, 10, CV_8UC1, cv::Scalar(77)), {}, {}, {}).empty());
+}
+
+TEST(FeatureDetector, HalfResolutionFindsTheSameCornersInFullPixels)
+{
+  cv::Mat gray(480, 640, CV_8UC1, cv::Scalar(60));
+  cv::Mat inner = gray(cv::Rect(200, 100, 240, 160));
+  inner.setTo(180);
+  const std::vector<Eigen::Vector2f> found = detectFeatures(ImagePyramid(gray), {}, {}, {});
+  EXPECT_EQ(found.size(), 4u);
+  for (const Eigen::Vector2f& corner : { Eigen::Vector2f(199.5F, 99.5F), Eigen::Vector2f(439.5F, 99.5F),
+                                         Eigen::Vector2f(199.5F, 259.5F), Eigen::Vector2f(439.5F, 259.5F) })
+  {
+    float nearest_px = 1e9F;
+    for (const Eigen::Vector2f& pixel : found)
+      nearest_px = std::min(nearest_px, (pixel - corner).norm());
+    EXPECT_LT(nearest_px, 4.5F) << corner.transpose();
+  }
+}
+
+TEST(FeatureDetector, HalfResolutionKeepsToTheMaskAndAwayFromOldFeatures)
+{
+  const rgbd::Frame frame = view(0);
+  const ImagePyramid pyramid(frame.gray);
+  FeatureDetectorOptions options;
+  options.max_features = 100;
+  const std::vector<Eigen::Vector2f> first = detectFeatures(pyramid, frame.object_mask, {}, options);
+  ASSERT_GT(first.size(), 20u);
+  for (const Eigen::Vector2f& pixel : first)
+    EXPECT_NE(frame.object_mask.at<std::uint8_t>(std::lround(pixel.y()), std::lround(pixel.x())), 0);
+  const std::vector<Eigen::Vector2f> occupied(first.begin(), first.begin() + 20);
+  const std::vector<Eigen::Vector2f> second = detectFeatures(pyramid, {}, occupied, options);
+  EXPECT_LE(second.size(), 80u);
+  for (const Eigen::Vector2f& a : second)
+  {
+    EXPECT_GE(a.x(), options.border_px - 1);
+    EXPECT_GE(a.y(), options.border_px - 1);
+    EXPECT_LE(a.x(), frame.gray.cols - options.border_px);
+    EXPECT_LE(a.y(), frame.gray.rows - options.border_px);
+    for (const Eigen::Vector2f& b : occupied)
+      EXPECT_GE((a - b).norm(), options.min_distance_px - 2);
+  }
+}
+
+TEST(FeatureDetector, SmallImagesAreSearchedAtFullResolution)
+{
+  cv::Mat small;
+  cv::resize(view(0).gray, small, cv::Size(320, 240), 0, 0, cv::INTER_AREA);
+  const std::vector<Eigen::Vector2f> by_pyramid = detectFeatures(ImagePyramid(small), {}, {}, {});
+  const std::vector<Eigen::Vector2f> by_image = detectFeatures(small, {}, {}, {});
+  ASSERT_FALSE(by_image.empty());
+  EXPECT_EQ(by_pyramid, by_image);
+}
+
+TEST(FeatureDetector, TakesNoNoiseForCorners)
+{
+  cv::Mat noise(480, 640, CV_8UC1);
+  cv::theRNG().state = 7;
+  cv::randn(noise, 120, 2);
+  EXPECT_TRUE(detectFeatures(ImagePyramid(noise), {}, {}, {}).empty());
+  EXPECT_TRUE(detectFeatures(noise, {}, {}, {}).empty());
+  FeatureDetectorOptions any;
+  any.min_gradient = 0;
+  EXPECT_GT(detectFeatures(ImagePyramid(noise), {}, {}, any).size(), 100u);
+  // Print of twenty grey levels stands out from it.
+  noise(cv::Rect(200, 100, 240, 160)) += 20;
+  EXPECT_EQ(detectFeatures(ImagePyramid(noise), {}, {}, {}).size(), 4u);
 }
 
 TEST(WideBaselineFeatures, MatchAcrossTwentyDegrees)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "object_modelling/tracking/camera_tracker.h"
@@ -9,11 +10,34 @@
 
 namespace object_modelling::tracking
 {
+/// The sensor of these tests.
+inline test_support::SensorNoise sensorNoise(int index)
+{
+  test_support::SensorNoise noise;
+  noise.depth_sigma_scale = 0.5;
+  noise.color_sigma = 1.5;
+  noise.seed = static_cast<std::uint64_t>(index + 1);
+  return noise;
+}
+
+/// No print anywhere: a box and a can on a table, which look different from every side.
+inline test_support::SyntheticScene plainScene()
+{
+  test_support::SyntheticScene scene = test_support::boxOnTable();
+  scene.objects.push_back(test_support::standingCylinder(0.1, 0.08, 0.14, 0.1));
+  scene.table = test_support::plainTexture();
+  scene.objects[0].texture = test_support::plainTexture({ 90, 120, 200 });
+  scene.objects[1].texture = test_support::plainTexture({ 120, 90, 60 });
+  return scene;
+}
+
 /// A walk round a textured box on a textured table, at a quarter of VGA so that a test takes seconds.
 class TrackingScene
 {
 public:
-  explicit TrackingScene(int frame_count, double turn_rad = 0.5, double rate_hz = 30)
+  explicit TrackingScene(int frame_count, double turn_rad = 0.5, double rate_hz = 30,
+                         test_support::SyntheticScene scene = test_support::boxOnTable())
+      : scene_(std::move(scene))
   {
     test_support::HandheldOptions options;
     options.frame_count = frame_count;
@@ -28,12 +52,8 @@ public:
   static geometry::PinholeCamera camera() { return test_support::vgaCamera().scaled(0.5); }
   rgbd::Frame frame(int index, const Eigen::Isometry3d& T_moved = Eigen::Isometry3d::Identity()) const
   {
-    test_support::SensorNoise noise;
-    noise.depth_sigma_scale = 0.5;
-    noise.color_sigma = 1.5;
-    noise.seed = static_cast<std::uint64_t>(index + 1);
-    return test_support::renderFrame(test_support::boxOnTable(), camera(), cameras_[index].T_world_camera * T_moved,
-                                     noise, cameras_[index].stamp_s);
+    return test_support::renderFrame(scene_, camera(), cameras_[index].T_world_camera * T_moved, sensorNoise(index),
+                                     cameras_[index].stamp_s);
   }
   /// Session frame: the first camera.
   Eigen::Isometry3d truth(int index) const
@@ -43,6 +63,7 @@ public:
   double stamp_s(int index) const { return cameras_[index].stamp_s; }
 
 private:
+  test_support::SyntheticScene scene_;
   std::vector<test_support::StampedCamera> cameras_;
 };
 
