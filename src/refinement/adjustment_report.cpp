@@ -111,7 +111,7 @@ BundleAdjustmentResult reportOf(const std::vector<rgbd::Keyframe>& keyframes, co
     return result;
   }
   result.iterations = adjustment.iterations;
-  BundleState before{ adjustment.T_session_camera_start, adjustment.state.map };
+  BundleState before{ adjustment.T_session_camera_start, adjustment.state.map, {} };
   replaceLandmarks(keyframes, adjustment.T_session_camera_start, &before.map);
   result.initial_cost = robustCost(keyframes, options.loss_width_sigmas, before);
   result.final_cost = robustCost(keyframes, options.loss_width_sigmas, adjustment.state);

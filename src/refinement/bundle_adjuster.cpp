@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
+#include <utility>
 
 #include "connectivity.h"
 #include "link_tracks.h"
@@ -98,6 +100,18 @@ void BundleAdjuster::findLinks(Adjustment* adjustment)
   adjustment->links = linkKeyframes(keyframes_, shared, enough_shared, linkerOptions(options_), *control_);
   for (const VerifiedLink& link : adjustment->links)
     link_edges_.push_back(edgeOfLink(link, keyframes_));
+  surface_links_ = linkSurfaces(keyframes_, options_.object_only, *control_);
+}
+
+Eigen::MatrixXi BundleAdjuster::connections(const std::vector<SightGroup>& groups) const
+{
+  Eigen::MatrixXi shared = sharedLandmarks(groups, keyframes_.size());
+  for (const SurfaceLink& link : surface_links_)
+  {
+    shared(link.a, link.b) += MIN_SHARED;
+    shared(link.b, link.a) += MIN_SHARED;
+  }
+  return shared;
 }
 
 std::vector<SightGroup> BundleAdjuster::groupsOf(Adjustment* adjustment) const
@@ -105,7 +119,7 @@ std::vector<SightGroup> BundleAdjuster::groupsOf(Adjustment* adjustment) const
   std::vector<SightGroup> groups = tracked_;
   const std::vector<SightGroup> linked = linkedSights(adjustment->links, adjustment->active);
   groups.insert(groups.end(), linked.begin(), linked.end());
-  adjustment->members = largestComponent(sharedLandmarks(groups, keyframes_.size()), MIN_SHARED);
+  adjustment->members = largestComponent(connections(groups), MIN_SHARED);
   return restrictTo(adjustment->members, groups);
 }
 
@@ -121,9 +135,22 @@ void BundleAdjuster::adjust(Adjustment* adjustment) const
   const int fixed = adjustment->members.front();
   const auto is_member = [&](int k)
   { return std::binary_search(adjustment->members.begin(), adjustment->members.end(), k); };
+  state.surface_links.clear();
   std::vector<PoseEdge> tracker_edges;
+  std::set<std::pair<int, int>> by_surfaces;
+  for (const SurfaceLink& link : surface_links_)
+  {
+    if (!is_member(link.a) || !is_member(link.b))
+      continue;
+    state.surface_links.push_back(link);
+    tracker_edges.push_back(edgeOfSurfaces(link, keyframes_));
+    by_surfaces.emplace(link.a, link.b);
+  }
+  // What the tracker made of few landmarks is what the surfaces are there to correct.
+  const Eigen::MatrixXi shared = sharedLandmarks(tracked_, keyframes_.size());
   for (const PoseEdge& edge : edgesOfTracker(tracked_, keyframes_, MIN_SHARED))
-    if (is_member(edge.a))
+    if (is_member(edge.a) &&
+        (shared(edge.a, edge.b) >= ENOUGH_SHARED || by_surfaces.count(std::minmax(edge.a, edge.b)) == 0))
       tracker_edges.push_back(edge);
   for (std::size_t i = 0; i < adjustment->links.size(); ++i)
     adjustment->active[i] =
@@ -132,12 +159,12 @@ void BundleAdjuster::adjust(Adjustment* adjustment) const
       relaxWithLinks(tracker_edges, link_edges_, fixed, adjustment->T_session_camera_start, &adjustment->active);
   const std::vector<SightGroup> groups = groupsOf(adjustment);
   state.map = placeLandmarks(groups, keyframes_, state.T_session_camera, options_.min_observations_per_landmark);
-  if (state.map.landmarks.empty())
+  if (state.map.landmarks.empty() && state.surface_links.empty())
     return;
 
   approach(fixed, adjustment);
   state.map = placeLandmarks(groups, keyframes_, state.T_session_camera, options_.min_observations_per_landmark);
-  if (!state.map.landmarks.empty())
+  if (!state.map.landmarks.empty() || !state.surface_links.empty())
     solve(fixed, adjustment);
 }
 
@@ -145,6 +172,8 @@ void BundleAdjuster::approach(int fixed, Adjustment* adjustment) const
 {
   BundleState& state = adjustment->state;
   const std::vector<double> errors = sightErrors_sigmas(keyframes_, state);
+  if (errors.empty())
+    return;
   const double typical = quantile(errors, TYPICAL_SHARE);
   state.map = withoutStrays(state.map, errors, STRAY_FACTOR * typical);
   BundleSolverOptions solver;

@@ -42,6 +42,8 @@ private:
   /// many sigmas is closed rather than taken for an outlier.
   void approach(int fixed, Adjustment* adjustment) const;
   void solve(int fixed, Adjustment* adjustment) const;
+  /// Shared landmarks of each pair of keyframes; surfaces count as enough of them.
+  Eigen::MatrixXi connections(const std::vector<SightGroup>& groups) const;
   /// Whether any link had to go.
   bool dropContradicting(Adjustment* adjustment) const;
 
@@ -50,6 +52,7 @@ private:
   base::JobControl* control_;
   std::vector<SightGroup> tracked_;
   std::vector<PoseEdge> link_edges_;
+  std::vector<SurfaceLink> surface_links_;
 };
 
 }  // namespace object_modelling::refinement

@@ -16,6 +16,8 @@ namespace object_modelling::refinement
 {
 namespace
 {
+constexpr double SURFACE_LOSS_FACTOR = 2;  // six residuals at once are larger than one
+
 /// Reports progress, and stops the solver when the callback or a cancellation throws; the exception waits until the
 /// solver has returned.
 class ProgressCallback : public ceres::IterationCallback
@@ -98,6 +100,17 @@ BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, in
     solver_options.linear_solver_ordering->AddElementToGroup(landmark, 0);
     solver_options.linear_solver_ordering->AddElementToGroup(motion, 1);
     seen[sight.keyframe] = true;
+  }
+  ceres::CauchyLoss surface_loss(SURFACE_LOSS_FACTOR * options.loss_width_sigmas);
+  for (const SurfaceLink& link : state->surface_links)
+  {
+    problem.AddResidualBlock(surfaceCost(cameras[link.a], cameras[link.b], link.T_a_b, link.information), &surface_loss,
+                             motions[link.a].data(), motions[link.b].data());
+    for (const int k : { link.a, link.b })
+    {
+      solver_options.linear_solver_ordering->AddElementToGroup(motions[k].data(), 1);
+      seen[k] = true;
+    }
   }
   if (fixed_keyframe >= 0 && seen[fixed_keyframe])
     problem.SetParameterBlockConstant(motions[fixed_keyframe].data());

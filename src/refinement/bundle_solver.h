@@ -4,6 +4,7 @@
 
 #include "landmark_map.h"
 #include "object_modelling/base/job_control.h"
+#include "surface_links.h"
 
 namespace object_modelling::refinement
 {
@@ -26,6 +27,7 @@ struct BundleState
 {
   std::vector<Eigen::Isometry3d> T_session_camera;
   LandmarkMap map;
+  std::vector<SurfaceLink> surface_links;
 };
 
 /// One run of Levenberg-Marquardt over all poses and landmarks (Ceres, landmarks eliminated first), Cauchy loss on

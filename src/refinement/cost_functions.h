@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "object_modelling/geometry/pinhole_camera.h"
+#include "object_modelling/geometry/transform.h"
 
 namespace object_modelling::refinement
 {
@@ -60,5 +61,10 @@ private:
   double depth_m_;
   double sigma_m_;
 };
+
+/// Relative pose of two cameras minus a measured one, in sigmas. Blocks: motion of a (6), motion of b (6).
+/// `information`: of a motion on the left of T_a_b. The caller owns the result.
+ceres::CostFunction* surfaceCost(const LinearisedCamera& a, const LinearisedCamera& b, const Eigen::Isometry3d& T_a_b,
+                                 const geometry::Matrix6d& information);
 
 }  // namespace object_modelling::refinement

@@ -13,7 +13,7 @@ struct BundleAdjustmentOptions
   double pixel_sigma_px = 0.5;     ///< of an observation
   double loss_width_sigmas = 2.0;  ///< residuals beyond count robustly (Cauchy)
   int min_observations_per_landmark = 2;
-  int max_iterations = 50;
+  int max_iterations = 300;
   bool link_keyframes = true;  ///< match keyframes that the tracker did not link before adjusting
   bool object_only = false;    ///< only observations on the object mask (turntable, object in motion)
   int threads = 1;             ///< more than one: results are no longer equal bit for bit

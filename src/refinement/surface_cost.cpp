@@ -1,0 +1,57 @@
+#include <ceres/autodiff_cost_function.h>
+#include <ceres/rotation.h>
+#include <Eigen/Cholesky>
+
+#include "cost_functions.h"
+
+namespace object_modelling::refinement
+{
+namespace
+{
+template <typename T>
+using Matrix3 = Eigen::Matrix<T, 3, 3>;
+template <typename T>
+using Vector3 = Eigen::Matrix<T, 3, 1>;
+
+class SurfaceCost
+{
+public:
+  SurfaceCost(const Eigen::Isometry3d& T_a_b_start, const Eigen::Isometry3d& T_a_b,
+              const geometry::Matrix6d& information)
+      : T_a_b_start_(T_a_b_start), T_b_a_measured_(T_a_b.inverse()), weight_(information.llt().matrixU())
+  {
+  }
+
+  /// E = M_a T_a_b_start M_b^-1 T_b_a_measured, whose vector is the error.
+  template <typename T>
+  bool operator()(const T* motion_a, const T* motion_b, T* residuals) const
+  {
+    Matrix3<T> R_a, R_b;
+    ceres::AngleAxisToRotationMatrix(motion_a + 3, R_a.data());
+    ceres::AngleAxisToRotationMatrix(motion_b + 3, R_b.data());
+    const Eigen::Map<const Vector3<T>> t_a(motion_a), t_b(motion_b);
+    const Matrix3<T> R = R_a * T_a_b_start_.linear().cast<T>() * R_b.transpose();
+    const Vector3<T> t = R_a * T_a_b_start_.translation().cast<T>() + t_a - R * t_b;
+    const Matrix3<T> R_error = R * T_b_a_measured_.linear().cast<T>();
+    Eigen::Matrix<T, 6, 1> error;
+    error.template head<3>() = R * T_b_a_measured_.translation().cast<T>() + t;
+    ceres::RotationMatrixToAngleAxis(R_error.data(), error.data() + 3);
+    Eigen::Map<Eigen::Matrix<T, 6, 1>> weighted(residuals);
+    weighted = weight_.cast<T>() * error;
+    return true;
+  }
+
+private:
+  Eigen::Isometry3d T_a_b_start_, T_b_a_measured_;
+  geometry::Matrix6d weight_;
+};
+}  // namespace
+
+ceres::CostFunction* surfaceCost(const LinearisedCamera& a, const LinearisedCamera& b, const Eigen::Isometry3d& T_a_b,
+                                 const geometry::Matrix6d& information)
+{
+  return new ceres::AutoDiffCostFunction<SurfaceCost, 6, 6, 6>(
+      new SurfaceCost(a.T_camera_session * b.T_camera_session.inverse(), T_a_b, information));
+}
+
+}  // namespace object_modelling::refinement
