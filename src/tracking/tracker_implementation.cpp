@@ -82,7 +82,6 @@ TrackingResult CameraTracker::Implementation::trackUsable(const rgbd::Frame& fra
       return result;
     last_pyramid_ = view.pyramid;
     last_dense_ = view.dense;
-    last_dense_ = view.dense;
     return result;
   }
 

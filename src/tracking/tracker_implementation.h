@@ -61,12 +61,12 @@ private:
   std::string refuse(const rgbd::Frame& frame) const;
   Placement place(const View& view, StageTimes* times) const;
 
-  /// Where the camera should be now: moved as the robot says, or on at constant velocity; and how well that is known.
-  Eigen::Isometry3d predictNow(double stamp_s) const;
-  QuadraticTerm predictionTerm(double stamp_s) const;
+  /// Where the camera should be now: on at constant velocity, or moved as the robot says (if it says anything).
+  QuadraticTerm predictByHand(double stamp_s) const;
+  std::optional<QuadraticTerm> predictByRobot() const;
 
-  Placement placeByAlignment(const View& view, StageTimes* times) const;
-  Placement placeByFlow(const View& view, StageTimes* times) const;
+  Placement placeByAlignment(const View& view, const QuadraticTerm& prediction, StageTimes* times) const;
+  Placement placeByFlow(const View& view, const QuadraticTerm& prediction, StageTimes* times) const;
   Placement placeByRecognition(const View& view, StageTimes* times) const;
   /// Surfaces of the nearest keyframe at the finest level, from a pose that is close.
   Surfaces surfacesNear(const View& view, const Eigen::Isometry3d& T_session_camera, StageTimes* times) const;

@@ -58,6 +58,25 @@ std::string unconstrained(const geometry::Matrix6d& covariance, double depth_m)
          " mrad unsure): show more shape or print";
 }
 
+QuadraticTerm predictionTerm(const Eigen::Isometry3d& T_session_camera, const geometry::Matrix6d& covariance_before,
+                             const geometry::Matrix6d& covariance_of_motion)
+{
+  QuadraticTerm term;
+  term.T_camera_session = T_session_camera.inverse();
+  term.equations.A = (inCameraFrame(covariance_before, T_session_camera) + covariance_of_motion).inverse();
+  return term;
+}
+
+/// Whether a pose is where a prediction says it is not: 50 is far beyond all quantiles of chi-squared with 6 degrees of
+/// freedom.
+bool contradicts(const PoseEstimate& pose, const QuadraticTerm& prediction)
+{
+  constexpr double MAX_SQUARED_SIGMAS = 50;
+  const geometry::Vector6d off =
+      geometry::vectorFromIsometry(pose.T_session_camera.inverse() * prediction.T_camera_session.inverse());
+  return off.dot(prediction.equations.A * off) > MAX_SQUARED_SIGMAS;
+}
+
 std::vector<Correspondence> correspondencesOf(const std::vector<LandmarkMatch>& matches)
 {
   std::vector<Correspondence> correspondences;
@@ -76,25 +95,18 @@ PoseEstimationOptions CameraTracker::Implementation::poseOptions() const
   return options;
 }
 
-Eigen::Isometry3d CameraTracker::Implementation::predictNow(double stamp_s) const
+QuadraticTerm CameraTracker::Implementation::predictByHand(double stamp_s) const
 {
-  if (T_robot_camera_ && T_robot_camera_last_)
-    return geometry::normalised(*motion_.last() * T_robot_camera_last_->inverse() * *T_robot_camera_);
-  return *motion_.predict(stamp_s);
+  return predictionTerm(*motion_.predict(stamp_s), last_covariance_, handMotionCovariance(stamp_s - last_placed_s_));
 }
 
-QuadraticTerm CameraTracker::Implementation::predictionTerm(double stamp_s) const
+std::optional<QuadraticTerm> CameraTracker::Implementation::predictByRobot() const
 {
-  const double elapsed_s = stamp_s - last_placed_s_;
-  const bool by_robot = T_robot_camera_ && T_robot_camera_last_;
-  const Eigen::Isometry3d T_session_predicted = predictNow(stamp_s);
-  const geometry::Matrix6d moved =
-      by_robot ? robotMotionCovariance(options_.robot_translation_sigma_m, options_.robot_rotation_sigma_rad)
-               : handMotionCovariance(elapsed_s);
-  QuadraticTerm term;
-  term.T_camera_session = T_session_predicted.inverse();
-  term.equations.A = (inCameraFrame(last_covariance_, T_session_predicted) + moved).inverse();
-  return term;
+  if (!T_robot_camera_ || !T_robot_camera_last_)
+    return std::nullopt;
+  return predictionTerm(geometry::normalised(*motion_.last() * T_robot_camera_last_->inverse() * *T_robot_camera_),
+                        last_covariance_,
+                        robotMotionCovariance(options_.robot_translation_sigma_m, options_.robot_rotation_sigma_rad));
 }
 
 CameraTracker::Implementation::Placement CameraTracker::Implementation::place(const View& view, StageTimes* times) const
@@ -105,11 +117,16 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::place(co
   Placement placement;
   if (motion_.last() && !interrupted)
   {
-    placement = placeByAlignment(view, times);
+    const QuadraticTerm by_hand = predictByHand(view.frame.stamp_s);
+    const std::optional<QuadraticTerm> by_robot = predictByRobot();
+    placement = placeByAlignment(view, by_robot.value_or(by_hand), times);
+    // A robot that says what cannot be (wrong frame, clock or calibration) has no say at all.
+    if (by_robot && (!placement.pose.valid || contradicts(placement.pose, *by_robot)))
+      placement = placeByAlignment(view, by_hand, times);
     if (placement.pose.valid)
       return placement;
     const std::string reason = placement.reason;
-    placement = placeByFlow(view, times);
+    placement = placeByFlow(view, by_hand, times);
     if (placement.pose.valid)
       return placement;
     placement.reason = reason + "; " + placement.reason;
@@ -120,12 +137,11 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::place(co
   return recognised;
 }
 
-CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByAlignment(const View& view,
-                                                                                         StageTimes* times) const
+CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByAlignment(
+    const View& view, const QuadraticTerm& prediction, StageTimes* times) const
 {
   StageTimer timer(&times->dense_ms);
   Placement placement;
-  const QuadraticTerm prediction = predictionTerm(view.frame.stamp_s);
   const Eigen::Isometry3d T_session_predicted = prediction.T_camera_session.inverse();
   const std::vector<const MapKeyframe*> nearest = map_.nearestViews(T_session_predicted, 1);
   if (nearest.empty())
@@ -173,6 +189,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByA
 }
 
 CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByFlow(const View& view,
+                                                                                    const QuadraticTerm& prediction,
                                                                                     StageTimes* times) const
 {
   Placement placement;
@@ -183,7 +200,6 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByF
   }
   StageTimer timer(&times->flow_ms);
   const rgbd::Frame& frame = view.frame;
-  const QuadraticTerm prediction = predictionTerm(frame.stamp_s);
   std::vector<Eigen::Vector2f> from, predicted;
   for (const LandmarkMatch& match : last_inliers_)
   {

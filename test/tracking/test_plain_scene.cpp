@@ -231,4 +231,24 @@ TEST(RobotMotion, OnlyMotionCountsNotWhereTheRobotStands)
     }
   }
 }
+TEST(RobotMotion, ALieDoesNotMoveTheCameraBeforePlainThings)
+{
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double lie_m : { -0.3, 0.3 })
+    {
+      const TrackingScene walk(11, 0.2, 30, plainScene());
+      CameraTracker tracker;
+      for (int i = 0; i < walk.size(); ++i)
+      {
+        Eigen::Isometry3d T_lie = Eigen::Isometry3d::Identity();
+        T_lie.translation()(axis) = lie_m * std::max(0, i - 7);
+        const TrackingResult result = tracker.track(walk.frame(i), walk.truth(i) * T_lie);
+        if (result.tracked() && i > 0)
+        {
+          EXPECT_LT(errorSigmas(result, walk.truth(i)), 5) << axis << ", " << lie_m << " m, " << i;
+        }
+      }
+    }
+}
+
 }  // namespace object_modelling::tracking

@@ -64,7 +64,7 @@ struct TrackingResult
   double reprojection_rmse_px = 0;  ///< of the inliers
   double speed_m_per_s = 0;
   double angular_speed_rad_per_s = 0;
-  double blur_ratio = 0;                   ///< 0 sharp .. 1 no detail left, against the session's sharpest frames
+  double blur_ratio = 0;  ///< 0 sharp .. 1 no detail left, against the session's sharpest frames
   StageTimes times;
   std::optional<rgbd::Keyframe> keyframe;  ///< set when this frame becomes a keyframe; ids count from 0
 

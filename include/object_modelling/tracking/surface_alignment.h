@@ -35,8 +35,8 @@ struct SurfaceAlignment
 };
 
 /// Aligns two frames by depth and intensity, coarse to fine (see the camera tracker), from a start that may be several
-/// degrees off. Nothing if the surfaces do not fit; surfaces may fit and yet have slid along each other, so align a with
-/// b and b with a, and compare.
+/// degrees off. Nothing if the surfaces do not fit; surfaces may fit and yet have slid along each other, so align a
+/// with b and b with a, and compare.
 std::optional<SurfaceAlignment> alignSurfaces(const SurfaceView& a, const SurfaceView& b,
                                               const Eigen::Isometry3d& T_a_b_start);
 
