@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "../common/frame_parameters.h"
 #include "../common/store_parameters.h"
 #include "object_modelling/rgbd/frame_builder.h"
 #include "object_modelling/ros_bridge/remote_session_store.h"
@@ -68,10 +69,7 @@ void read(Reader& reader, CameraTrackerNodeOptions* options)
   reader.read("robot/translation_sigma_m", options->tracker.robot_translation_sigma_m);
   reader.read("robot/rotation_sigma_rad", options->tracker.robot_rotation_sigma_rad);
   reader.read("robot/wait_s", options->robot.wait_s);
-  reader.read("frame/max_stamp_difference_s", options->frame.max_stamp_difference_s);
-  reader.read("frame/min_depth_ratio", options->frame.min_depth_ratio);
-  reader.read("frame/min_depth_m", options->frame.min_depth_m);
-  reader.read("frame/max_depth_m", options->frame.max_depth_m);
+  read(reader, &options->frame);
   reader.read("use_store", options->use_store);
   reader.read("stored_timeout_s", options->stored_timeout_s);
   reader.read("session_frame_id", options->session_frame_id);

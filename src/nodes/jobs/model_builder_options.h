@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "../common/frame_parameters.h"
 #include "../common/store_parameters.h"
-#include "object_modelling/base/options.h"
 #include "object_modelling/pipeline/build_object.h"
 
 namespace object_modelling::nodes
@@ -19,8 +19,7 @@ struct ModelBuilderOptions
   std::vector<std::string> violations() const
   {
     base::OptionsCheck check("model_builder");
-    check.require("session_frame_id", !session_frame_id.empty() && session_frame_id.front() != '/',
-                  "must be a frame id without leading slash");
+    requireFrameId(check, "session_frame_id", session_frame_id);
     check.include(build.violations());
     return check.violations();
   }

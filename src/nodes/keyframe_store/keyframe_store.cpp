@@ -2,6 +2,7 @@
 
 #include <object_modelling/StoreState.h>
 
+#include "../common/data_path.h"
 #include "object_modelling/ros_bridge/keyframe_conversion.h"
 #include "object_modelling/ros_bridge/names.h"
 #include "object_modelling/ros_bridge/status_conversion.h"
@@ -19,7 +20,7 @@ constexpr double WARNING_PERIOD_S = 5;
 
 KeyframeStore::KeyframeStore(ros::NodeHandle& node, ros::NodeHandle& private_node, const KeyframeStoreOptions& options)
     : options_(options),
-      connection_(storeConnection(options.store_path)),
+      connection_(dataPath(options.store_path, "keyframes.sqlite")),
       preview_(options.preview),
       preview_publisher_(private_node, options.session_frame_id),
       store_(connection_, *this),

@@ -9,9 +9,7 @@ namespace object_modelling::nodes
 {
 struct KeyframeStoreOptions
 {
-  /// SQLite file ("~/" stands for the home folder) or "postgresql://..."; empty: keyframes.sqlite in the folder
-  /// object_modelling of ROS_HOME (~/.ros).
-  std::string store_path;
+  std::string store_path;                    ///< SQLite file, see dataPath("keyframes.sqlite"), or "postgresql://..."
   std::string session_frame_id = "session";  ///< frame of the previews
   double preview_rate_hz = 2;                ///< previews are published at most this often
   SessionPreviewOptions preview;
@@ -29,8 +27,5 @@ void read(Reader& reader, KeyframeStoreOptions* options)
   reader.read("preview/max_points", options->preview.max_points);
   reader.read("preview/max_keyframes", options->preview.max_keyframes);
 }
-
-/// The connection for openSqlStore, with home folder and default filled in.
-std::string storeConnection(const std::string& store_path);
 
 }  // namespace object_modelling::nodes

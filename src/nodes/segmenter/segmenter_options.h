@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "../common/frame_parameters.h"
 #include "../common/store_parameters.h"
 #include "object_modelling/rgbd/frame_builder.h"
 #include "object_modelling/segmentation/object_mask_propagator.h"
@@ -31,10 +32,7 @@ void read(Reader& reader, SegmenterOptions* options)
   reader.read("selection_margin_m", options->selection_margin_m);
   reader.read("tf_timeout_s", options->tf_timeout_s);
   reader.read("session_frame_id", options->session_frame_id);
-  reader.read("frame/max_stamp_difference_s", options->frame.max_stamp_difference_s);
-  reader.read("frame/min_depth_ratio", options->frame.min_depth_ratio);
-  reader.read("frame/min_depth_m", options->frame.min_depth_m);
-  reader.read("frame/max_depth_m", options->frame.max_depth_m);
+  read(reader, &options->frame);
   segmentation::SceneSegmenterOptions& scene = options->propagator.segmenter;
   reader.read("scene/plane_angle_rad", scene.plane_angle_rad);
   reader.read("scene/plane_distance_sigmas", scene.plane_distance_sigmas);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "nodes/camera_tracker/camera_tracker_options.h"
+#include "nodes/common/data_path.h"
 #include "nodes/common/run_node.h"
 #include "nodes/keyframe_store/keyframe_store_options.h"
 #include "yaml_parameters.h"
@@ -65,15 +66,15 @@ TEST(RecordingConfig, KeyframeStore)
   expectDefaults<KeyframeStoreOptions>("keyframe_store");
 }
 
-TEST(RecordingConfig, StoreConnection)
+TEST(RecordingConfig, DataPath)
 {
   ::setenv("HOME", "/home/someone", 1);
   ::unsetenv("ROS_HOME");
-  EXPECT_EQ("/home/someone/.ros/object_modelling/keyframes.sqlite", storeConnection(""));
-  EXPECT_EQ("/home/someone/a.sqlite", storeConnection("~/a.sqlite"));
-  EXPECT_EQ("postgresql://u@h/db", storeConnection("postgresql://u@h/db"));
+  EXPECT_EQ("/home/someone/.ros/object_modelling/keyframes.sqlite", dataPath("", "keyframes.sqlite"));
+  EXPECT_EQ("/home/someone/a.sqlite", dataPath("~/a.sqlite", "keyframes.sqlite"));
+  EXPECT_EQ("postgresql://u@h/db", dataPath("postgresql://u@h/db", "keyframes.sqlite"));
   ::setenv("ROS_HOME", "/var/ros", 1);
-  EXPECT_EQ("/var/ros/object_modelling/keyframes.sqlite", storeConnection(""));
+  EXPECT_EQ("/var/ros/object_modelling/keyframes.sqlite", dataPath("", "keyframes.sqlite"));
 }
 }  // namespace
 }  // namespace object_modelling::nodes
