@@ -122,7 +122,7 @@ WriterLock::~WriterLock()
 
 std::string makeTemporaryFolder(const std::string& root, const std::string& object_id)
 {
-  const std::string folder = root + "/" + NEW + object_id;
+  std::string folder = root + "/" + NEW + object_id;
   std::error_code failure;
   fs::create_directory(folder, failure);
   if (failure)

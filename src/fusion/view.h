@@ -47,8 +47,8 @@ inline Projection project(const View& view, const Eigen::Vector3f& p_session)
                   result.v_px < static_cast<float>(camera.height) - 0.5f;
   if (result.inside)
   {
-    result.column = static_cast<int>(result.u_px + 0.5f);
-    result.row = static_cast<int>(result.v_px + 0.5f);
+    result.column = cvRound(result.u_px);
+    result.row = cvRound(result.v_px);
   }
   return result;
 }

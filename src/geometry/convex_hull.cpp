@@ -66,7 +66,7 @@ ConvexHull convexHull(const std::vector<Eigen::Vector3f>& points)
   Plane plane;
   if (!fitPlane(precise, Eigen::Vector3d::Zero(), &plane))
     return { points, { Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ() } };
-  const ConvexHull both_sides{ points, { plane.normal, -plane.normal } };
+  ConvexHull both_sides{ points, { plane.normal, -plane.normal } };
   Qhull qhull;
   if (isFlat(precise, plane) || !qhull.run(&precise))
     return both_sides;

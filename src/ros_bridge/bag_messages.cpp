@@ -72,7 +72,7 @@ sensor_msgs::Image::ConstPtr BagMessages::takeDepth(const ros::Time& stamp)
                                         });
   if (nearest == depths_.end() || distance((*nearest)->header.stamp, stamp) > max_difference_)
     return {};
-  const sensor_msgs::Image::ConstPtr depth = *nearest;
+  sensor_msgs::Image::ConstPtr depth = *nearest;
   depths_.erase(depths_.begin(), nearest + 1);
   return depth;
 }

@@ -50,7 +50,7 @@ XmlRpcValue privateParameters(const ros::NodeHandle& node)
 
 /// XmlRpcValue's conversions are not const on every release.
 template <typename T>
-T as(XmlRpcValue value)
+T as(XmlRpcValue value)  // NOLINT(performance-unnecessary-value-param)
 {
   return static_cast<T>(value);
 }

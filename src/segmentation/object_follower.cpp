@@ -214,7 +214,7 @@ cv::Mat ObjectFollower::lookOnTurntable(const rgbd::Frame& frame, const Supporte
     return {};
   const cv::Mat rest = hypothesis & ~plane.mask;
   const Support top = supportRound(frame, plane.plane_camera, rest);
-  const cv::Mat standing =
+  cv::Mat standing =
       standingOn(frame, top.plane_camera, top.noise_scale, surroundings(hypothesis), rest, options_.segmenter);
   if (standing.empty() || turntableUnder(frame, top, standing).empty())
     return {};

@@ -179,7 +179,7 @@ DenseTerm evaluateDense(const std::vector<DensePoint>& points, const DenseLevel&
     const float v = level.fy * s.q.y() * inverse_z + level.cy;
     if (!(u >= 1 && v >= 1 && u < max_u && v < max_v))
       continue;
-    if (!level.mask.empty() && level.mask.at<std::uint8_t>(static_cast<int>(v + 0.5F), static_cast<int>(u + 0.5F)) == 0)
+    if (!level.mask.empty() && level.mask.at<std::uint8_t>(cvRound(v), cvRound(u)) == 0)
       continue;
     const float depth_m = interpolateDepth_m(level.depth_m, u, v);
     const float step_m = s.q.z() - depth_m;

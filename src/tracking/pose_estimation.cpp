@@ -118,7 +118,7 @@ PoseEstimate solve(const std::vector<Correspondence>& correspondences, const geo
 {
   PoseEstimate estimate;
   Eigen::Isometry3d T_camera_session = T_session_camera_start.inverse();
-  const auto equationsAt = [&](const Eigen::Isometry3d& T)
+  const auto equations_at = [&](const Eigen::Isometry3d& T)
   {
     NormalEquations equations = linearise(correspondences, camera, T, options);
     if (term)
@@ -127,7 +127,7 @@ PoseEstimate solve(const std::vector<Correspondence>& correspondences, const geo
   };
   for (int iteration = 0; iteration < options.max_iterations; ++iteration)
   {
-    const NormalEquations equations = equationsAt(T_camera_session);
+    const NormalEquations equations = equations_at(T_camera_session);
     const Eigen::LDLT<geometry::Matrix6d> solver(equations.A);
     if (solver.info() != Eigen::Success || solver.rcond() < 1e-12)
       return estimate;
@@ -153,7 +153,7 @@ PoseEstimate solve(const std::vector<Correspondence>& correspondences, const geo
   estimate.valid = true;
   estimate.T_session_camera = T_camera_session.inverse();
   estimate.reprojection_rmse_px = std::sqrt(squared_sum / std::max(1, estimate.inlier_count));
-  estimate.covariance = equationsAt(T_camera_session).A.inverse();
+  estimate.covariance = equations_at(T_camera_session).A.inverse();
   return estimate;
 }
 
@@ -173,7 +173,7 @@ PoseEstimate refinePose(const std::vector<Correspondence>& correspondences, cons
   PoseEstimationOptions gated = options;
   gated.max_reprojection_error_px = 2 * options.max_reprojection_error_px;
   gated.max_iterations = 3;
-  const PoseEstimate rough = solve(correspondences, camera, T_session_camera_start, gated, term);
+  PoseEstimate rough = solve(correspondences, camera, T_session_camera_start, gated, term);
   if (!rough.valid)
     return rough;
   const double sigma_px = robustSigma_px(correspondences, camera, rough.T_session_camera.inverse(), options);

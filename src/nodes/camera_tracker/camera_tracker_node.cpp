@@ -128,7 +128,7 @@ std::string CameraTrackerNode::inputProblem(const ros::WallTime& now) const
 {
   if (watch_.framesCome(now))
     return {};
-  const std::string silent = watch_.silentTopics(now);
+  std::string silent = watch_.silentTopics(now);
   if (!silent.empty())
     return silent;
   if (pairer_.waitingCount() > 0)

@@ -39,10 +39,10 @@ base::Result<cv::Mat> LiveMasks::begin(const rgbd::Keyframe& keyframe, Selection
 base::Result<int> LiveMasks::choose(const rgbd::Keyframe& keyframe, const segmentation::SceneSegmentation& segmentation,
                                     Selection* selection) const
 {
-  const base::Result<int> found = selection->find(segmentation, session_id_, keyframe.T_session_camera);
+  base::Result<int> found = selection->find(segmentation, session_id_, keyframe.T_session_camera);
   if (found.ok() || selection->seed(session_id_) || !automatic_)
     return found;
-  const base::Result<int> chosen = segmentation::selectAutomatically(segmentation, keyframe.frame.camera);
+  base::Result<int> chosen = segmentation::selectAutomatically(segmentation, keyframe.frame.camera);
   // What was chosen inside a box of the user's is a choice of the user's; without one the whole session decides later.
   if (chosen.ok() && selection->roiSet())
     selection->choose(segmentation.hypotheses[static_cast<std::size_t>(chosen.value)].centroid_camera, session_id_,
