@@ -44,6 +44,8 @@ object_modelling_third_party(threads LIBRARIES Threads::Threads)
 object_modelling_third_party(soci INCLUDES ${SOCI_INCLUDE_DIR} ${SQLITE_INCLUDE_DIR} ${POSTGRESQL_INCLUDE_DIR}
   LIBRARIES ${SOCI_core_LIBRARY} ${SOCI_sqlite3_LIBRARY} ${SOCI_postgresql_LIBRARY})
 if(OBJECT_MODELLING_SANITIZE)
+  # With AddressSanitizer Eigen pads what it allocates, but the libraries here that free it were compiled without.
+  target_compile_definitions(object_modelling_eigen INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
   # Debian's SOCI hides the type information of its statements, which this check would link to.
   target_compile_options(object_modelling_soci INTERFACE -fno-sanitize=vptr)
 endif()
