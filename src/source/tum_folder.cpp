@@ -54,7 +54,8 @@ public:
       : folder_(std::move(folder)),
         camera_(readCameraFile((fs::path(folder_) / "camera.yaml").string())),
         frames_(readRecordingList(folder_, options.max_stamp_difference_s)),
-        has_instances_(fs::exists(fs::path(folder_) / "objects.yaml"))
+        has_instances_(fs::exists(fs::path(folder_) / "objects.yaml")),
+        launch_(options.decode_ahead ? std::launch::async : std::launch::deferred)
   {
     if (options.use_masks)
       addMasks(folder_, &frames_);
@@ -79,7 +80,7 @@ private:
   void decodeAhead()
   {
     if (next_index_ < frames_.size())
-      ahead_ = std::async(std::launch::async, [this, index = next_index_++] { return decode(frames_[index]); });
+      ahead_ = std::async(launch_, [this, index = next_index_++] { return decode(frames_[index]); });
   }
 
   rgbd::RawFrame decode(const RecordedFrame& listed) const
@@ -103,6 +104,7 @@ private:
   CameraFile camera_;
   std::vector<RecordedFrame> frames_;
   bool has_instances_;
+  std::launch launch_;
   std::size_t next_index_ = 0;
   std::future<rgbd::RawFrame> ahead_;  // last: its destructor waits for the decoder, which uses the others
 };

@@ -53,7 +53,10 @@ std::vector<source::StampedPose> Run::trajectory() const
 Run trackRecording(const std::string& folder, const RunOptions& options)
 {
   resetPeakMemory();
-  const std::unique_ptr<source::FrameSource> source = source::openTumFolder(folder);
+  // On one core a decoder beside the tracker would be measured with it.
+  source::TumFolderOptions folder_options;
+  folder_options.decode_ahead = false;
+  const std::unique_ptr<source::FrameSource> source = source::openTumFolder(folder, folder_options);
   rgbd::FrameBuilder builder;
   tracking::CameraTrackerOptions tracker_options;
   tracker_options.reference = options.object_reference ? tracking::Reference::OBJECT : tracking::Reference::SCENE;

@@ -11,6 +11,7 @@ namespace object_modelling::source
 struct TumFolderOptions
 {
   double max_stamp_difference_s = 0.02;  ///< pairing of rgb.txt and depth.txt where associations.txt is missing
+  bool decode_ahead = true;              ///< the next frame in another thread; off where the time of others is measured
   bool use_masks = true;                 ///< deliver mask/ (listed in mask.txt, exact stamps) as object masks
   std::vector<std::string> violations() const;
 };
