@@ -24,39 +24,55 @@ struct Template
   float variance = 0;  ///< sum of squares of `value`
 };
 
-/// Bilinear value; false outside the image.
-bool sample(const cv::Mat& image, double u, double v, float* value)
-{
-  if (!(u >= 0 && v >= 0 && u < image.cols - 1 && v < image.rows - 1))
-    return false;
-  const int iu = static_cast<int>(u);
-  const int iv = static_cast<int>(v);
-  const auto a = static_cast<float>(u - iu);
-  const auto b = static_cast<float>(v - iv);
-  const std::uint8_t* upper = image.ptr<std::uint8_t>(iv) + iu;
-  const std::uint8_t* lower = image.ptr<std::uint8_t>(iv + 1) + iu;
-  *value = (1 - b) * ((1 - a) * upper[0] + a * upper[1]) + b * ((1 - a) * lower[0] + a * lower[1]);
-  return true;
-}
-
-/// Patch of the reference as the current camera would see it at `centre` (current pixel at level scale).
+/// Patch of the reference as the current camera would see it at `centre` (current pixel at level scale); false where it
+/// leaves the reference.
 bool warpTemplate(const cv::Mat& reference, double reference_scale, double current_scale,
                   const Eigen::Matrix3d& H_reference_current, const Eigen::Vector2d& centre, Template* patch)
 {
-  std::array<float, BORDERED * BORDERED> bordered;
-  // cv::pyrDown puts pixel u of a level on pixel 2 u of the level below.
-  const Eigen::Vector3d step_x = current_scale * H_reference_current.col(0);
-  for (int y = 0; y < BORDERED; ++y)
-  {
-    Eigen::Vector3d mapped = H_reference_current * Eigen::Vector3d((centre.x() - HALF - 1) * current_scale,
-                                                                   (centre.y() + y - HALF - 1) * current_scale, 1);
-    for (int x = 0; x < BORDERED; ++x, mapped += step_x)
+  // From the window's first pixel at level scale to the reference's level; cv::pyrDown puts pixel u of a level on pixel
+  // 2 u of the level below.
+  Eigen::Matrix3d H = H_reference_current;
+  H.col(2) += current_scale * (H.leftCols<2>() * (centre.array() - (HALF + 1)).matrix());
+  H.leftCols<2>() *= current_scale;
+  H.topRows<2>() /= reference_scale;
+  // A quadrilateral in front of the camera is inside if its corners are.
+  for (const double y : { 0, BORDERED - 1 })
+    for (const double x : { 0, BORDERED - 1 })
     {
+      const Eigen::Vector3d mapped = H * Eigen::Vector3d(x, y, 1);
       if (!(mapped.z() > 1e-9))
         return false;
-      const double to_pixel = 1 / (mapped.z() * reference_scale);
-      if (!sample(reference, mapped.x() * to_pixel, mapped.y() * to_pixel, &bordered[y * BORDERED + x]))
+      const Eigen::Vector2d corner = mapped.hnormalized();
+      if (!(corner.x() >= 0.01 && corner.y() >= 0.01 && corner.x() < reference.cols - 1.01 &&
+            corner.y() < reference.rows - 1.01))
         return false;
+    }
+  std::array<float, BORDERED * BORDERED> bordered;
+  std::array<float, BORDERED> u, v;
+  const Eigen::Matrix3f h = H.cast<float>();
+  for (int y = 0; y < BORDERED; ++y)
+  {
+    const auto fy = static_cast<float>(y);
+    const float u0 = h(0, 1) * fy + h(0, 2), v0 = h(1, 1) * fy + h(1, 2), z0 = h(2, 1) * fy + h(2, 2);
+    for (int x = 0; x < BORDERED; ++x)
+    {
+      const auto fx = static_cast<float>(x);
+      const float inverse_z = 1 / (h(2, 0) * fx + z0);
+      u[x] = (h(0, 0) * fx + u0) * inverse_z;
+      v[x] = (h(1, 0) * fx + v0) * inverse_z;
+    }
+    float* out = &bordered[static_cast<std::size_t>(y) * BORDERED];
+    for (int x = 0; x < BORDERED; ++x)
+    {
+      const int iu = static_cast<int>(u[x]);
+      const int iv = static_cast<int>(v[x]);
+      const float a = u[x] - static_cast<float>(iu);
+      const float b = v[x] - static_cast<float>(iv);
+      const std::uint8_t* upper = reference.ptr<std::uint8_t>(iv) + iu;
+      const std::uint8_t* lower = upper + reference.step;
+      const float top = static_cast<float>(upper[0]) + a * static_cast<float>(upper[1] - upper[0]);
+      const float bottom = static_cast<float>(lower[0]) + a * static_cast<float>(lower[1] - lower[0]);
+      out[x] = top + b * (bottom - top);
     }
   }
   for (int y = 0; y < SIDE; ++y)
@@ -151,21 +167,16 @@ LevelOutcome alignAtLevel(const Template& patch, const cv::Mat& image, const Eig
   LevelOutcome outcome;
   outcome.pixel = start;
   std::array<float, BORDERED * BORDERED> window;
-  bool small_step = false;
-  for (int iteration = 0; iteration <= options.max_iterations; ++iteration)
+  for (int iteration = 0; iteration < options.max_iterations && !outcome.converged; ++iteration)
   {
     Eigen::Vector2d step;
     if (!sampleWindow(image, outcome.pixel, &window) || !solveStep(patch, window, &step, &outcome.correlation))
       return outcome;
-    if (small_step)
-    {
-      outcome.converged = true;
-      return outcome;
-    }
     outcome.pixel += step;
     if ((outcome.pixel - start).norm() > options.max_displacement_px)
       return outcome;
-    small_step = step.norm() < options.convergence_px;
+    // The correlation is that before the last step, which is too small to tell.
+    outcome.converged = step.norm() < options.convergence_px;
   }
   return outcome;
 }
