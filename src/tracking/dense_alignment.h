@@ -11,7 +11,7 @@ struct DenseAlignmentOptions
 {
   /// Neighbouring pixels err alike (interpolation, calibration, smooth distortion of depth): this many of them say as
   /// much as one independent measurement.
-  double correlated_depths = 30;
+  double correlated_depths = 15;
   double correlated_intensities = 10;
   int max_iterations = 8;  ///< per level
   /// Levels used, 0: the finest. From coarsest to finest; the same for a start that is good already.
@@ -33,9 +33,8 @@ struct DenseTerm
 /// Point-to-plane depth and photometric residuals of a reference's points in a frame at one level (Kerl, Sturm, Cremers
 /// 2013; Chen & Medioni 1992), each weighed by its robust scale. `T_camera_session` is what the motion of the
 /// equations is applied to; `T_session_reference` places the points.
-DenseTerm evaluateDense(const std::vector<DensePoint>& points, const DenseLevel& level,
-                        const Eigen::Isometry3d& T_camera_session, const Eigen::Isometry3d& T_session_reference,
-                        const DenseAlignmentOptions& options);
+DenseTerm evaluateDense(const DensePoints& points, const DenseLevel& level, const Eigen::Isometry3d& T_camera_session,
+                        const Eigen::Isometry3d& T_session_reference, const DenseAlignmentOptions& options);
 
 struct DenseAlignment
 {

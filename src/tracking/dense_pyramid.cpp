@@ -14,9 +14,10 @@ namespace
 {
 constexpr int MAX_FINEST_WIDTH = 200;  // px: VGA and its neighbours begin at a quarter
 constexpr std::size_t LEVEL_COUNT = 3;
-constexpr float SURFACE_STEP_RATIO = 0.015F;  // of depth per pixel of the finer level
-constexpr double MIN_GRADIENT = 6;            // grey levels per pixel
-constexpr std::size_t MAX_POINTS = 5000;      // per level
+constexpr float SURFACE_STEP_RATIO = 0.015F;   // of depth per pixel of the finer level
+constexpr double MIN_GRADIENT = 6;             // grey levels per pixel
+constexpr std::size_t MAX_GRID_POINTS = 2500;  // per level: more of them tell no more ...
+constexpr std::size_t MAX_EDGE_POINTS = 2500;  // ... for neighbours err alike
 
 /// Every second pixel of `depth_m` (or every step-th), averaged with those neighbours that lie on the same surface.
 cv::Mat reduceDepth(const cv::Mat& depth_m, int step, cv::Size size)
@@ -67,31 +68,49 @@ rgbd::Frame asFrame(const DenseLevel& level)
   return frame;
 }
 
-std::vector<DensePoint> referencePoints(const DenseLevel& level)
+double gradientAt(const cv::Mat& gray, int u, int v)
+{
+  const auto* row = gray.ptr<std::uint8_t>(v) + u;
+  return 0.5 * std::hypot(row[1] - row[-1], row[gray.step] - row[-static_cast<std::ptrdiff_t>(gray.step)]);
+}
+
+/// How many points in the order of the image there are for one that is taken.
+int stride(std::size_t count, std::size_t wanted)
+{
+  return static_cast<int>((count + wanted - 1) / wanted);
+}
+
+DensePoints referencePoints(const DenseLevel& level)
 {
   rgbd::NormalOptions normal_options;
   normal_options.radius_px = 2;
   normal_options.max_depth_step_ratio = 0.04;
   const cv::Mat normals = rgbd::computeNormals(asFrame(level), normal_options);
-  std::vector<DensePoint> points;
-  // A grid as fine as the number of points allows; edges always count.
-  const int grid = static_cast<int>(level.depth_m.total() / MAX_POINTS) + 1;
+  cv::Mat edges(level.gray.size(), CV_8UC1, cv::Scalar(0));
+  for (int v = 1; v < edges.rows - 1; ++v)
+    for (int u = 1; u < edges.cols - 1; ++u)
+      edges.at<std::uint8_t>(v, u) = !std::isnan(level.depth_m.at<float>(v, u)) &&
+                                     (level.mask.empty() || level.mask.at<std::uint8_t>(v, u) != 0) &&
+                                     gradientAt(level.gray, u, v) >= MIN_GRADIENT;
+  const int every_edge = std::max(1, stride(static_cast<std::size_t>(cv::countNonZero(edges)), MAX_EDGE_POINTS));
+  const int grid = std::max(1, stride(level.depth_m.total(), MAX_GRID_POINTS));
+  const int shear = grid / 3 + 1;  // from row to row, so that the grid is about as wide as high
+  DensePoints points;
+  points.edges_per_point = every_edge;
+  int edge = 0;
   for (int v = 1; v < level.depth_m.rows - 1; ++v)
   {
-    const auto* gray = level.gray.ptr<std::uint8_t>(v);
-    const auto* above = level.gray.ptr<std::uint8_t>(v - 1);
-    const auto* below = level.gray.ptr<std::uint8_t>(v + 1);
     const auto* depth = level.depth_m.ptr<float>(v);
     const auto* normal = normals.ptr<cv::Vec3f>(v);
+    const auto* is_edge = edges.ptr<std::uint8_t>(v);
     const auto* mask = level.mask.empty() ? nullptr : level.mask.ptr<std::uint8_t>(v);
     for (int u = 1; u < level.depth_m.cols - 1; ++u)
     {
       if (std::isnan(depth[u]) || (mask && mask[u] == 0))
         continue;
-      const double gradient = 0.5 * std::hypot(gray[u + 1] - gray[u - 1], below[u] - above[u]);
       DensePoint point;
-      point.textured = gradient >= MIN_GRADIENT;
-      const bool on_grid = (u + (v % 2) * grid / 2) % grid == 0;
+      point.textured = is_edge[u] != 0 && edge++ % every_edge == 0;
+      const bool on_grid = (u + v * shear) % grid == 0;
       if (!point.textured && !on_grid)
         continue;
       point.p = { (static_cast<float>(u) - level.cx) / level.fx * depth[u],
@@ -99,18 +118,9 @@ std::vector<DensePoint> referencePoints(const DenseLevel& level)
       point.n.setZero();
       if (on_grid && !std::isnan(normal[u][0]))
         point.n = { normal[u][0], normal[u][1], normal[u][2] };
-      point.intensity = gray[u];
-      points.push_back(point);
+      point.intensity = level.gray.at<std::uint8_t>(v, u);
+      points.all.push_back(point);
     }
-  }
-  // More edges than needed: every n-th, in the order of the image.
-  if (points.size() > 2 * MAX_POINTS)
-  {
-    const std::size_t every = points.size() / MAX_POINTS;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < points.size(); i += every)
-      points[kept++] = points[i];
-    points.resize(kept);
   }
   return points;
 }

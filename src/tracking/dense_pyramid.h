@@ -42,15 +42,22 @@ struct DensePoint
   bool textured = false;  ///< enough gradient for an intensity residual
 };
 
-/// Points of one frame on a grid and on its grey-level edges, level by level as in its DensePyramid.
+/// Points of one level, on a grid and on grey-level edges.
+struct DensePoints
+{
+  std::vector<DensePoint> all;
+  double edges_per_point = 1;  ///< so many pixels of edges stand behind each textured point
+};
+
+/// Points of one frame, level by level as in its DensePyramid.
 class DenseReference
 {
 public:
   explicit DenseReference(const DensePyramid& pyramid);
-  const std::vector<std::vector<DensePoint>>& levels() const { return levels_; }
+  const std::vector<DensePoints>& levels() const { return levels_; }
 
 private:
-  std::vector<std::vector<DensePoint>> levels_;
+  std::vector<DensePoints> levels_;
 };
 
 }  // namespace object_modelling::tracking

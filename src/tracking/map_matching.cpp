@@ -37,6 +37,23 @@ bool occluded(const rgbd::Frame& frame, const Eigen::Vector2d& pixel, double z_m
 }
 }  // namespace
 
+std::vector<LandmarkMatch> inliersOf(const std::vector<LandmarkMatch>& matches, const PoseEstimate& pose)
+{
+  std::vector<LandmarkMatch> inliers;
+  for (std::size_t i = 0; i < matches.size(); ++i)
+    if (pose.inliers[i])
+      inliers.push_back(matches[i]);
+  return inliers;
+}
+
+std::vector<Correspondence> correspondencesOf(const std::vector<LandmarkMatch>& matches)
+{
+  std::vector<Correspondence> correspondences;
+  correspondences.reserve(matches.size());
+  for (const LandmarkMatch& match : matches)
+    correspondences.push_back(match.correspondence);
+  return correspondences;
+}
 MapMatches matchMap(const KeyframeMap& map, const rgbd::Frame& frame, const ImagePyramid& pyramid,
                     const Eigen::Isometry3d& T_session_camera,
                     const std::unordered_map<std::uint64_t, Eigen::Vector2f>& flow_pixels,

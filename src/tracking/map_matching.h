@@ -17,6 +17,9 @@ struct LandmarkMatch
   bool trusted = true;  ///< its place comes from a trusted keyframe
 };
 
+std::vector<LandmarkMatch> inliersOf(const std::vector<LandmarkMatch>& matches, const PoseEstimate& pose);
+std::vector<Correspondence> correspondencesOf(const std::vector<LandmarkMatch>& matches);
+
 struct MapMatches
 {
   std::vector<LandmarkMatch> matches;

@@ -1,5 +1,10 @@
 #include "pose_uncertainty.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+
 namespace object_modelling::tracking
 {
 namespace
@@ -9,6 +14,9 @@ constexpr double ACCELERATION_M_PER_S2 = 10;
 constexpr double ANGULAR_ACCELERATION_RAD_PER_S2 = 50;
 constexpr double SYSTEMATIC_TRANSLATION_RATIO = 0.0005;  // of the depth
 constexpr double SYSTEMATIC_ROTATION_RAD = 0.0004;
+// A direction that is known no better is not known.
+constexpr double MAX_TRANSLATION_SIGMA_RATIO = 0.02;  // of the depth
+constexpr double MAX_ROTATION_SIGMA_RAD = 0.02;
 
 geometry::Matrix6d isotropic(double translation_sigma_m, double rotation_sigma_rad)
 {
@@ -57,6 +65,36 @@ geometry::Matrix6d robotMotionCovariance(double translation_sigma_m, double rota
 geometry::Matrix6d systematicCovariance(double depth_m)
 {
   return isotropic(SYSTEMATIC_TRANSLATION_RATIO * depth_m, SYSTEMATIC_ROTATION_RAD);
+}
+
+QuadraticTerm predictionTerm(const Eigen::Isometry3d& T_session_camera, const geometry::Matrix6d& covariance_before,
+                             const geometry::Matrix6d& covariance_of_motion)
+{
+  QuadraticTerm term;
+  term.T_camera_session = T_session_camera.inverse();
+  term.equations.A = (inCameraFrame(covariance_before, T_session_camera) + covariance_of_motion).inverse();
+  return term;
+}
+
+bool contradicts(const PoseEstimate& pose, const QuadraticTerm& prediction)
+{
+  constexpr double MAX_SQUARED_SIGMAS = 50;
+  const geometry::Vector6d off =
+      geometry::vectorFromIsometry(pose.T_session_camera.inverse() * prediction.T_camera_session.inverse());
+  return off.dot(prediction.equations.A * off) > MAX_SQUARED_SIGMAS;
+}
+
+std::string unconstrained(const geometry::Matrix6d& covariance, double depth_m)
+{
+  const auto sigma = [](const Eigen::Matrix3d& block)
+  { return std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block).eigenvalues().z())); };
+  const double translation_m = sigma(covariance.topLeftCorner<3, 3>());
+  const double rotation_rad = sigma(covariance.bottomRightCorner<3, 3>());
+  if (translation_m <= MAX_TRANSLATION_SIGMA_RATIO * depth_m && rotation_rad <= MAX_ROTATION_SIGMA_RAD)
+    return {};
+  return "the view leaves a direction free (" + std::to_string(static_cast<int>(std::lround(1e3 * translation_m))) +
+         " mm, " + std::to_string(static_cast<int>(std::lround(1e3 * rotation_rad))) +
+         " mrad unsure): show more shape or print";
 }
 
 }  // namespace object_modelling::tracking

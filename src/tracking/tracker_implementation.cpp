@@ -119,7 +119,7 @@ void CameraTracker::Implementation::start(const View& view, TrackingResult* resu
   camera_ = view.frame.camera;
   addKeyframe(view, Eigen::Isometry3d::Identity(), {}, true, result);
   result->inlier_count = result->feature_count = static_cast<int>(last_inliers_.size());
-  const std::vector<DensePoint>& surface = map_.keyframes().back()->dense().levels().front();
+  const std::vector<DensePoint>& surface = map_.keyframes().back()->dense().levels().front().all;
   const auto edges = std::count_if(surface.begin(), surface.end(), [](const DensePoint& p) { return p.textured; });
   if (result->inlier_count < options_.min_inliers && (surface.size() < MIN_SURFACE_POINTS || edges < MIN_EDGE_POINTS))
   {

@@ -1,8 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
-
-#include <Eigen/Eigenvalues>
 
 #include "dense_quality.h"
 #include "depth_sampling.h"
@@ -24,76 +21,7 @@ constexpr double RECOGNITION_ERROR_PX = 4.0;
 constexpr double MAX_BLIND_S = 0.2;
 constexpr double FLOW_PREDICTION_ERROR_PX = 1.5;
 constexpr double ALIGNMENT_ERROR_PX = 1.5;
-// A direction that is known no better is not known.
-constexpr double MAX_TRANSLATION_SIGMA_RATIO = 0.02;  // of the depth
-constexpr double MAX_ROTATION_SIGMA_RAD = 0.02;
-constexpr double TRUSTED_RMSE_RATIO = 0.5;  // of the inlier gate; wrong poses fill the gate evenly, which gives 0.7
-
-std::vector<LandmarkMatch> inliersOf(const std::vector<LandmarkMatch>& matches, const PoseEstimate& pose)
-{
-  std::vector<LandmarkMatch> inliers;
-  for (std::size_t i = 0; i < matches.size(); ++i)
-    if (pose.inliers[i])
-      inliers.push_back(matches[i]);
-  return inliers;
-}
-
-int countTrusted(const std::vector<LandmarkMatch>& matches)
-{
-  return static_cast<int>(
-      std::count_if(matches.begin(), matches.end(), [](const LandmarkMatch& match) { return match.trusted; }));
-}
-
-/// Why a pose is not known in all directions; empty if it is.
-std::string unconstrained(const geometry::Matrix6d& covariance, double depth_m)
-{
-  const auto sigma = [](const Eigen::Matrix3d& block)
-  { return std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block).eigenvalues().z())); };
-  const double translation_m = sigma(covariance.topLeftCorner<3, 3>());
-  const double rotation_rad = sigma(covariance.bottomRightCorner<3, 3>());
-  if (translation_m <= MAX_TRANSLATION_SIGMA_RATIO * depth_m && rotation_rad <= MAX_ROTATION_SIGMA_RAD)
-    return {};
-  return "the view leaves a direction free (" + std::to_string(static_cast<int>(std::lround(1e3 * translation_m))) +
-         " mm, " + std::to_string(static_cast<int>(std::lround(1e3 * rotation_rad))) +
-         " mrad unsure): show more shape or print";
-}
-
-QuadraticTerm predictionTerm(const Eigen::Isometry3d& T_session_camera, const geometry::Matrix6d& covariance_before,
-                             const geometry::Matrix6d& covariance_of_motion)
-{
-  QuadraticTerm term;
-  term.T_camera_session = T_session_camera.inverse();
-  term.equations.A = (inCameraFrame(covariance_before, T_session_camera) + covariance_of_motion).inverse();
-  return term;
-}
-
-/// Whether a pose is where a prediction says it is not: 50 is far beyond all quantiles of chi-squared with 6 degrees of
-/// freedom.
-bool contradicts(const PoseEstimate& pose, const QuadraticTerm& prediction)
-{
-  constexpr double MAX_SQUARED_SIGMAS = 50;
-  const geometry::Vector6d off =
-      geometry::vectorFromIsometry(pose.T_session_camera.inverse() * prediction.T_camera_session.inverse());
-  return off.dot(prediction.equations.A * off) > MAX_SQUARED_SIGMAS;
-}
-
-std::vector<Correspondence> correspondencesOf(const std::vector<LandmarkMatch>& matches)
-{
-  std::vector<Correspondence> correspondences;
-  correspondences.reserve(matches.size());
-  for (const LandmarkMatch& match : matches)
-    correspondences.push_back(match.correspondence);
-  return correspondences;
-}
 }  // namespace
-
-PoseEstimationOptions CameraTracker::Implementation::poseOptions() const
-{
-  PoseEstimationOptions options;
-  // The gate is given for a VGA image, where half a pixel is what patch refinement reaches.
-  options.max_reprojection_error_px = options_.max_reprojection_error_px;
-  return options;
-}
 
 QuadraticTerm CameraTracker::Implementation::predictByHand(double stamp_s) const
 {
@@ -268,105 +196,6 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByR
   Placement placement =
       placeNear(view, surfacesNear(view, found.pose.T_session_camera, times), {}, RECOGNITION_ERROR_PX, nullptr, times);
   placement.wide_baseline = true;
-  return placement;
-}
-
-CameraTracker::Implementation::Surfaces CameraTracker::Implementation::surfacesNear(
-    const View& view, const Eigen::Isometry3d& T_session_camera, StageTimes* times) const
-{
-  const StageTimer timer(&times->dense_ms);
-  Surfaces surfaces;
-  surfaces.aligned.T_session_camera = T_session_camera;
-  const std::vector<const MapKeyframe*> nearest = map_.nearestViews(T_session_camera, 1);
-  if (nearest.empty())
-    return surfaces;
-  surfaces.reference = nearest.front();
-  DenseAlignmentOptions finest;
-  finest.coarsest_level = 0;
-  finest.max_iterations = 2;
-  const DenseAlignment aligned = alignDense(surfaces.reference->dense(), surfaces.reference->T_session_camera,
-                                            view.dense, T_session_camera, geometry::Matrix6d::Zero(), finest);
-  if (plausible(aligned.term))
-    surfaces.aligned = aligned;
-  return surfaces;
-}
-
-CameraTracker::Implementation::Placement CameraTracker::Implementation::placeNear(
-    const View& view, const Surfaces& surfaces, const std::vector<LandmarkMatch>& flow, double prediction_error_px,
-    const QuadraticTerm* prediction, StageTimes* times) const
-{
-  Placement placement;
-  if (!surfaces.reference)
-  {
-    placement.reason = "no keyframe looks this way";
-    return placement;
-  }
-  placement.reference = surfaces.reference;
-  const MapKeyframe& reference = *surfaces.reference;
-  const DenseAlignment& aligned = surfaces.aligned;
-  const Eigen::Isometry3d& T_session_camera = aligned.T_session_camera;
-  const bool surfaces_fit = plausible(aligned.term);
-  placement.overlap = aligned.term.overlap;
-
-  const StageTimer map_timer(&times->map_ms);
-  std::unordered_map<std::uint64_t, Eigen::Vector2f> flow_pixels;
-  for (const LandmarkMatch& match : flow)
-    flow_pixels.emplace(match.landmark_id, match.correspondence.pixel.cast<float>());
-  MapMatchingOptions matching;
-  matching.prediction_error_px = prediction_error_px;
-  matching.max_matches = options_.max_features;
-  MapMatches found = matchMap(map_, view.frame, view.pyramid, T_session_camera, flow_pixels, matching);
-  placement.reference_share = found.reference_share;
-  // Optical flow drifts; it counts only where too little of the map is recognised.
-  if (static_cast<int>(found.matches.size()) < 2 * options_.min_inliers)
-  {
-    for (const LandmarkMatch& match : found.matches)
-      flow_pixels.erase(match.landmark_id);
-    for (const LandmarkMatch& match : flow)
-      if (flow_pixels.count(match.landmark_id) > 0)
-        found.matches.push_back(match);
-  }
-  // What was placed in doubt has no say where others suffice, and none in where a lost camera is.
-  if (!prediction || countTrusted(found.matches) >= 2 * options_.min_inliers)
-    found.matches.erase(std::remove_if(found.matches.begin(), found.matches.end(),
-                                       [](const LandmarkMatch& match) { return !match.trusted; }),
-                        found.matches.end());
-
-  QuadraticTerm term;
-  term.T_camera_session = T_session_camera.inverse();
-  if (surfaces_fit)
-    term.equations = aligned.term.equations;
-  if (prediction)
-    term.equations += prediction->at(term.T_camera_session);
-  placement.pose =
-      refinePose(correspondencesOf(found.matches), view.frame.camera, T_session_camera, poseOptions(), &term);
-  const bool landmarks_fit =
-      placement.pose.valid && placement.pose.close_count >= options_.min_inliers &&
-      placement.pose.inlier_count >= options_.min_inlier_ratio * static_cast<double>(found.matches.size());
-  if (!placement.pose.valid ||
-      (!landmarks_fit && !(surfaces_fit && (prediction ? convincing(aligned.term) : certain(aligned.term)))))
-  {
-    placement.reason = std::to_string(placement.pose.close_count) + " consistent landmarks of " +
-                       std::to_string(found.predicted_count) + " that should be in view (at least " +
-                       std::to_string(options_.min_inliers) + " are needed), and surfaces: " + describe(aligned.term);
-    placement.pose.valid = false;
-    return placement;
-  }
-  placement.reason = unconstrained(placement.pose.covariance, reference.median_depth_m);
-  if (!placement.reason.empty())
-  {
-    placement.pose.valid = false;
-    return placement;
-  }
-  placement.inliers = inliersOf(found.matches, placement.pose);
-  placement.relative_covariance = inSessionFrame(
-      placement.pose.covariance + systematicCovariance(reference.median_depth_m), placement.pose.T_session_camera);
-  if (surfaces.chained)
-    placement.relative_covariance += last_covariance_;
-  const bool landmarks_trusted =
-      countTrusted(placement.inliers) == placement.pose.inlier_count &&
-      placement.pose.reprojection_rmse_px <= TRUSTED_RMSE_RATIO * options_.max_reprojection_error_px;
-  placement.trusted = landmarks_fit ? landmarks_trusted : reference.trusted;
   return placement;
 }
 

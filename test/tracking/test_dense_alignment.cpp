@@ -192,6 +192,32 @@ TEST(DenseAlignment, APlainPlaneLeavesThreeDirectionsFree)
   }
 }
 
+TEST(DenseAlignment, NoiseIsNoKnowledge)
+{
+  // Along a bar without end there is nothing but noise, staircases of edges and unsure normals to tell the place.
+  for (const double turn_m : { 0.0, 0.3 })
+  {
+    const Eigen::Isometry3d T = test_support::lookAt({ 0.5, 1.2, 0.6 }, { -0.1, 1.2 + turn_m, 0.05 });
+    const View a(renderUnmasked(endlessBarScene(), T, 1));
+    const View b(renderUnmasked(endlessBarScene(), T, 2));
+    // Next to nothing is known beforehand: 1 m, 1 rad.
+    const geometry::Matrix6d covariance =
+        (evaluateDense(a.reference.levels()[0], b.dense.levels()[0], IDENTITY, IDENTITY, {}).equations.A +
+         geometry::Matrix6d::Identity())
+            .inverse();
+    const auto sigma_m = [&](const Eigen::Vector3d& direction_world)
+    {
+      geometry::Vector6d direction = geometry::Vector6d::Zero();
+      direction.head<3>() = T.linear().transpose() * direction_world;
+      return std::sqrt(direction.dot(covariance * direction));
+    };
+    const double along_m = sigma_m(Eigen::Vector3d::UnitY());
+    EXPECT_GT(along_m, 0.5) << "looking " << turn_m << " m along it";
+    EXPECT_LT(sigma_m(Eigen::Vector3d::UnitX()), 0.1 * along_m);
+    EXPECT_LT(sigma_m(Eigen::Vector3d::UnitZ()), 0.1 * along_m);
+  }
+}
+
 TEST(DenseAlignment, NothingToGoByIsNeverPlausible)
 {
   const rgbd::Frame good = renderUnmasked(test_support::boxOnTable(), poseA(), 0);

@@ -60,7 +60,7 @@ Sequence jumps(const test_support::SyntheticScene& scene)
   jumps.scene = scene;
   jumps.interval_s = 0.5;
   const double azimuths_rad[] = { 0.0, 0.2, 0.0, 0.3, 0.1, 0.4, 0.25, 0.05, 0.35, 0.5 };
-  const double rolls_rad[] = { 0.0, 1.0, -0.3, -1.1, 0.2, 1.2, 0.1, -1.0, 0.4, -0.6 };
+  const double rolls_rad[] = { 0.0, 1.9, -0.5, -2.2, 0.2, 2.4, 0.1, -2.0, 0.4, -1.6 };
   for (int i = 0; i < 10; ++i)
   {
     geometry::Vector6d roll = geometry::Vector6d::Zero();
@@ -153,6 +153,19 @@ TEST(PlainScene, BareWallEndsTheTrackingInsteadOfLeadingItAstray)
     const std::string reasons = expectHonestLoss(turnToBareWall(scene), 15, 40);
     EXPECT_NE(reasons.find("plain"), std::string::npos) << reasons;
   }
+}
+
+TEST(PlainScene, EndlessBarLeavesADirectionFree)
+{
+  Sequence along;
+  along.scene = endlessBarScene();
+  for (int i = 0; i < 50; ++i)
+  {
+    const double y_m = 0.025 * std::clamp(i - 5, 0, 25);  // past the box, then the camera stands still
+    along.T_world_cameras.push_back(test_support::lookAt({ 0.5, y_m, 0.6 }, { -0.1, y_m, 0.05 }));
+  }
+  const std::string reasons = expectHonestLoss(along, 10, 45);
+  EXPECT_NE(reasons.find("direction free"), std::string::npos) << reasons;
 }
 
 TEST(PlainScene, CoveredLensIsRelocalisedBySurfaces)

@@ -31,6 +31,16 @@ inline test_support::SyntheticScene plainScene()
   return scene;
 }
 
+/// A plain bar without end beside a plain box on a plain table: past the box, no telling how far along it.
+inline test_support::SyntheticScene endlessBarScene()
+{
+  test_support::SyntheticScene scene = plainScene();
+  scene.table_half_size_m = 8;
+  scene.objects[1] = test_support::standingBox({ 0.1, 8, 0.15 }, -0.2, 0);
+  scene.objects[1].texture = test_support::plainTexture({ 60, 90, 60 });
+  return scene;
+}
+
 /// A walk round a textured box on a textured table, at a quarter of VGA so that a test takes seconds.
 class TrackingScene
 {

@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <unordered_map>
+
+#include "dense_quality.h"
+#include "pose_uncertainty.h"
+#include "stage_timer.h"
+#include "tracker_implementation.h"
+
+// The pose of a frame that is known nearly: what is known where, and the least squares on it. How a frame gets that far
+// is in tracker_placement.cpp.
+namespace object_modelling::tracking
+{
+namespace
+{
+constexpr double LOST_SIGMA = 1;            // m and rad, of a camera that may be anywhere
+constexpr double TRUSTED_RMSE_RATIO = 0.5;  // of the inlier gate; wrong poses fill the gate evenly, which gives 0.7
+
+int countTrusted(const std::vector<LandmarkMatch>& matches)
+{
+  return static_cast<int>(
+      std::count_if(matches.begin(), matches.end(), [](const LandmarkMatch& match) { return match.trusted; }));
+}
+}  // namespace
+
+PoseEstimationOptions CameraTracker::Implementation::poseOptions() const
+{
+  PoseEstimationOptions options;
+  // The gate is given for a VGA image, where half a pixel is what patch refinement reaches.
+  options.max_reprojection_error_px = options_.max_reprojection_error_px;
+  return options;
+}
+
+CameraTracker::Implementation::Surfaces CameraTracker::Implementation::surfacesNear(
+    const View& view, const Eigen::Isometry3d& T_session_camera, StageTimes* times) const
+{
+  const StageTimer timer(&times->dense_ms);
+  Surfaces surfaces;
+  surfaces.aligned.T_session_camera = T_session_camera;
+  const std::vector<const MapKeyframe*> nearest = map_.nearestViews(T_session_camera, 1);
+  if (nearest.empty())
+    return surfaces;
+  surfaces.reference = nearest.front();
+  DenseAlignmentOptions finest;
+  finest.coarsest_level = 0;
+  finest.max_iterations = 2;
+  const DenseAlignment aligned = alignDense(surfaces.reference->dense(), surfaces.reference->T_session_camera,
+                                            view.dense, T_session_camera, geometry::Matrix6d::Zero(), finest);
+  if (plausible(aligned.term))
+    surfaces.aligned = aligned;
+  return surfaces;
+}
+
+CameraTracker::Implementation::Placement CameraTracker::Implementation::placeNear(
+    const View& view, const Surfaces& surfaces, const std::vector<LandmarkMatch>& flow, double prediction_error_px,
+    const QuadraticTerm* prediction, StageTimes* times) const
+{
+  Placement placement;
+  if (!surfaces.reference)
+  {
+    placement.reason = "no keyframe looks this way";
+    return placement;
+  }
+  placement.reference = surfaces.reference;
+  const MapKeyframe& reference = *surfaces.reference;
+  const DenseAlignment& aligned = surfaces.aligned;
+  const Eigen::Isometry3d& T_session_camera = aligned.T_session_camera;
+  const bool surfaces_fit = plausible(aligned.term);
+  placement.overlap = aligned.term.overlap;
+
+  const StageTimer map_timer(&times->map_ms);
+  std::unordered_map<std::uint64_t, Eigen::Vector2f> flow_pixels;
+  for (const LandmarkMatch& match : flow)
+    flow_pixels.emplace(match.landmark_id, match.correspondence.pixel.cast<float>());
+  MapMatchingOptions matching;
+  matching.prediction_error_px = prediction_error_px;
+  matching.max_matches = options_.max_features;
+  MapMatches found = matchMap(map_, view.frame, view.pyramid, T_session_camera, flow_pixels, matching);
+  placement.reference_share = found.reference_share;
+  // Optical flow drifts; it counts only where too little of the map is recognised.
+  if (static_cast<int>(found.matches.size()) < 2 * options_.min_inliers)
+  {
+    for (const LandmarkMatch& match : found.matches)
+      flow_pixels.erase(match.landmark_id);
+    for (const LandmarkMatch& match : flow)
+      if (flow_pixels.count(match.landmark_id) > 0)
+        found.matches.push_back(match);
+  }
+  // What was placed in doubt has no say where others suffice, and none in where a lost camera is.
+  if (!prediction || countTrusted(found.matches) >= 2 * options_.min_inliers)
+    found.matches.erase(std::remove_if(found.matches.begin(), found.matches.end(),
+                                       [](const LandmarkMatch& match) { return !match.trusted; }),
+                        found.matches.end());
+
+  QuadraticTerm term;
+  term.T_camera_session = T_session_camera.inverse();
+  if (surfaces_fit)
+    term.equations = aligned.term.equations;
+  // What nothing tells of a lost camera shows as a large covariance.
+  if (prediction)
+    term.equations += prediction->at(term.T_camera_session);
+  else
+    term.equations.A += geometry::Matrix6d::Identity() / (LOST_SIGMA * LOST_SIGMA);
+  placement.pose =
+      refinePose(correspondencesOf(found.matches), view.frame.camera, T_session_camera, poseOptions(), &term);
+  const bool landmarks_fit =
+      placement.pose.valid && placement.pose.close_count >= options_.min_inliers &&
+      placement.pose.inlier_count >= options_.min_inlier_ratio * static_cast<double>(found.matches.size());
+  if (!placement.pose.valid ||
+      (!landmarks_fit && !(surfaces_fit && (prediction ? convincing(aligned.term) : certain(aligned.term)))))
+  {
+    placement.reason = std::to_string(placement.pose.close_count) + " consistent landmarks of " +
+                       std::to_string(found.predicted_count) + " that should be in view (at least " +
+                       std::to_string(options_.min_inliers) + " are needed), and surfaces: " + describe(aligned.term);
+    placement.pose.valid = false;
+    return placement;
+  }
+  placement.inliers = inliersOf(found.matches, placement.pose);
+  placement.relative_covariance = inSessionFrame(
+      placement.pose.covariance + systematicCovariance(reference.median_depth_m), placement.pose.T_session_camera);
+  if (surfaces.chained)
+    placement.relative_covariance += last_covariance_;
+  placement.reason = unconstrained(
+      inCameraFrame(placement.relative_covariance + reference.covariance, placement.pose.T_session_camera),
+      reference.median_depth_m);
+  if (!placement.reason.empty())
+  {
+    placement.pose.valid = false;
+    return placement;
+  }
+  const bool landmarks_trusted =
+      countTrusted(placement.inliers) == placement.pose.inlier_count &&
+      placement.pose.reprojection_rmse_px <= TRUSTED_RMSE_RATIO * options_.max_reprojection_error_px;
+  placement.trusted = landmarks_fit ? landmarks_trusted : reference.trusted;
+  return placement;
+}
+
+}  // namespace object_modelling::tracking
