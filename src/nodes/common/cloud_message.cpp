@@ -16,6 +16,8 @@ sensor_msgs::PointCloud2 cloudMessage(const std::vector<Eigen::Vector3f>& points
   modifier.resize(points.size());
   message.height = 1;
   message.width = static_cast<std::uint32_t>(points.size());
+  if (points.empty())
+    return message;  // an iterator takes the address of the first byte
   sensor_msgs::PointCloud2Iterator<float> xyz(message, "x");
   sensor_msgs::PointCloud2Iterator<std::uint8_t> bgr(message, "rgb");  // little-endian 0x00rrggbb
   for (std::size_t i = 0; i < points.size(); ++i, ++xyz, ++bgr)
