@@ -80,9 +80,12 @@ class UsageTest(unittest.TestCase):
         process = subprocess.Popen([COMMAND, "model", "bottle", HANDHELD, "--database", self.path("database"),
                                     "--store", store], stderr=subprocess.PIPE, stdout=subprocess.PIPE,
                                    universal_newlines=True)
-        time.sleep(1.5)
+        deadline = time.monotonic() + 60
+        while not os.path.exists(store) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        time.sleep(0.5)
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=30)
+        _, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, errors)
         self.assertIn("cancelled", errors)
         self.assertIn("0 session(s)", run("info", store).stdout)
