@@ -24,11 +24,12 @@ double distanceRatio(const MapKeyframe& keyframe, const Eigen::Isometry3d& T_ses
 }
 }  // namespace
 
-const WideBaselineFeatures& MapKeyframe::features() const
+const WideBaselineFeatures& MapKeyframe::features(FeatureKind kind) const
 {
-  if (!features_)
-    features_ = detectWideBaselineFeatures(frame);
-  return *features_;
+  std::optional<WideBaselineFeatures>& features = features_[static_cast<std::size_t>(kind)];
+  if (!features)
+    features = detectWideBaselineFeatures(frame, kind);
+  return *features;
 }
 
 const DenseReference& MapKeyframe::dense() const
@@ -64,12 +65,14 @@ const MapKeyframe& KeyframeMap::add(MapKeyframe keyframe)
   return *keyframes_.back();
 }
 
-std::vector<const MapKeyframe*> KeyframeMap::nearestViews(const Eigen::Isometry3d& T_session_camera,
-                                                          std::size_t count) const
+std::vector<const MapKeyframe*> KeyframeMap::nearestViews(const Eigen::Isometry3d& T_session_camera, std::size_t count,
+                                                          bool trusted_only) const
 {
   std::vector<std::pair<double, const MapKeyframe*>> scored;
   for (const auto& keyframe : keyframes_)
   {
+    if (trusted_only && !keyframe->trusted)
+      continue;
     const double angle_rad = viewAngle_rad(keyframe->T_session_camera, T_session_camera);
     if (angle_rad < MAX_REFERENCE_ANGLE_RAD)
       scored.emplace_back(

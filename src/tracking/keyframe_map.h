@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -39,12 +40,13 @@ struct MapKeyframe
   rgbd::Frame frame;  ///< without colour
   cv::Mat thumbnail;  ///< CV_32FC1, small, zero mean, unit norm: finds similar views quickly
   /// Descriptors, made when first asked for: most keyframes are never relocalised against.
-  const WideBaselineFeatures& features() const;
+  const WideBaselineFeatures& features(FeatureKind kind) const;
+  bool hasFeatures(FeatureKind kind) const { return features_[static_cast<std::size_t>(kind)].has_value(); }
   /// Points for dense alignment, made when first asked for.
   const DenseReference& dense() const;
 
 private:
-  mutable std::optional<WideBaselineFeatures> features_;
+  mutable std::array<std::optional<WideBaselineFeatures>, 2> features_;  // by kind
   mutable std::optional<DenseReference> dense_;
 };
 
@@ -62,7 +64,8 @@ public:
 
   /// Keyframes by predicted likeness of their view to a pose, the most alike first, trusted ones before others that are
   /// little nearer; those that look elsewhere left out.
-  std::vector<const MapKeyframe*> nearestViews(const Eigen::Isometry3d& T_session_camera, std::size_t count) const;
+  std::vector<const MapKeyframe*> nearestViews(const Eigen::Isometry3d& T_session_camera, std::size_t count,
+                                               bool trusted_only = false) const;
 
   /// Whether no keyframe looks from within both an angle and a distance (as a share of its depth).
   bool isNewView(const Eigen::Isometry3d& T_session_camera, double angle_rad, double distance_ratio) const;

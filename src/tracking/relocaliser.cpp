@@ -60,7 +60,7 @@ Relocalisation relocalise(const rgbd::Frame& frame, const KeyframeMap& map,
                           const RelocaliserOptions& options)
 {
   Relocalisation best;
-  const WideBaselineFeatures features = detectWideBaselineFeatures(frame);
+  const WideBaselineFeatures features = detectWideBaselineFeatures(frame, options.features);
   if (static_cast<int>(features.pixels.size()) < options.min_inliers)
   {
     best.reason = "only " + std::to_string(features.pixels.size()) + " features in view: covered, dark or plain";
@@ -72,9 +72,12 @@ Relocalisation relocalise(const rgbd::Frame& frame, const KeyframeMap& map,
   pose_options.max_hypotheses = 500;
   std::size_t most_matches = 0;
   int most_inliers = 0;
+  int detections = 0;
   for (const MapKeyframe* keyframe : candidates(frame, map, T_session_camera_hint, options))
   {
-    const WideBaselineFeatures& known = keyframe->features();
+    if (!keyframe->hasFeatures(options.features) && detections++ >= options.max_detections)
+      continue;
+    const WideBaselineFeatures& known = keyframe->features(options.features);
     std::vector<Correspondence> correspondences;
     for (const FeatureMatch& match : matchFeatures(features, known))
     {

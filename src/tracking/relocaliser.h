@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -11,6 +12,9 @@ namespace object_modelling::tracking
 {
 struct RelocaliserOptions
 {
+  FeatureKind features = FeatureKind::ROBUST;
+  /// Keyframes whose features may be made in one call; the others have their turn in the next.
+  int max_detections = std::numeric_limits<int>::max();
   int min_inliers = 15;
   double min_inlier_ratio = 0.25;  ///< of the matches
   double max_reprojection_error_px = 3.0;

@@ -68,6 +68,7 @@ TrackingResult CameraTracker::Implementation::trackUsable(const rgbd::Frame& fra
     return result;
   ++frame_count_;
   ++frames_since_keyframe_;
+  previous_stamp_s_ = last_stamp_s_;
   last_stamp_s_ = frame.stamp_s;
 
   StageTimer timer(&result.times.pyramid_ms);
@@ -90,15 +91,17 @@ TrackingResult CameraTracker::Implementation::trackUsable(const rgbd::Frame& fra
   if (!placement.pose.valid)
   {
     lost_ = true;
+    ++lost_frames_;
     result.reason = placement.reason;
     return result;
   }
   result.status = lost_ ? TrackingStatus::RELOCALISED : TrackingStatus::TRACKING;
   if (lost_)
     result.reason = "recognised a known view again";
-  motion_.add(frame.stamp_s, placement.pose.T_session_camera, !lost_);
+  motion_.add(frame.stamp_s, placement.pose.T_session_camera, !lost_ && !placement.corrected);
   T_robot_camera_last_ = T_robot_camera_;
   lost_ = false;
+  lost_frames_ = 0;
   previous_placed_s_ = last_placed_s_;
   last_placed_s_ = frame.stamp_s;
   result.T_session_camera = placement.pose.T_session_camera;

@@ -44,6 +44,7 @@ private:
     double reference_share = 0;      ///< of its landmarks that were found
     double overlap = 0;              ///< of its surfaces that are in view
     bool wide_baseline = false;      ///< found without the frames before
+    bool corrected = false;          ///< back among trusted keyframes: off where the motion led
     bool trusted = false;            ///< a good fit to trusted keyframes
     std::string reason;
   };
@@ -66,6 +67,8 @@ private:
   std::optional<QuadraticTerm> predictByRobot() const;
 
   Placement placeByAlignment(const View& view, const QuadraticTerm& prediction, StageTimes* times) const;
+  /// A frame that was placed in doubt, by the trusted keyframes that see the same; not valid if none does.
+  Placement placeByTrusted(const View& view, const Eigen::Isometry3d& T_session_camera, StageTimes* times) const;
   Placement placeByFlow(const View& view, const QuadraticTerm& prediction, StageTimes* times) const;
   Placement placeByRecognition(const View& view, StageTimes* times) const;
   /// Surfaces of the nearest keyframe at the finest level, from a pose that is close.
@@ -91,6 +94,8 @@ private:
   MotionModel motion_;
   geometry::PinholeCamera camera_;
   double last_stamp_s_ = 0;
+  double previous_stamp_s_ = 0;  ///< of the frame before the one being placed
+  int lost_frames_ = 0;          ///< since the last one that was placed
   std::uint64_t frame_count_ = 0;
   std::uint64_t next_landmark_id_ = 0;
   int next_keyframe_id_ = 0;

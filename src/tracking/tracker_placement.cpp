@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "dense_quality.h"
 #include "depth_sampling.h"
@@ -19,6 +20,9 @@ constexpr double MAX_SPEED_M_PER_S = 4.0;
 constexpr double MAX_ANGULAR_SPEED_RAD_PER_S = 12.0;
 constexpr double RECOGNITION_ERROR_PX = 4.0;
 constexpr double MAX_BLIND_S = 0.2;
+// In video the next frame is like this one: what takes longer than frames take to come is not tried with each of them.
+constexpr double MIN_WIDE_STEP_S = 0.2;
+constexpr int ROBUST_EVERY = 5;
 constexpr double FLOW_PREDICTION_ERROR_PX = 1.5;
 constexpr double ALIGNMENT_ERROR_PX = 1.5;
 }  // namespace
@@ -51,6 +55,12 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::place(co
     // A robot that says what cannot be (wrong frame, clock or calibration) has no say at all.
     if (by_robot && (!placement.pose.valid || contradicts(placement.pose, *by_robot)))
       placement = placeByAlignment(view, by_hand, times);
+    if (placement.pose.valid && !placement.trusted)
+    {
+      const Placement by_trusted = placeByTrusted(view, placement.pose.T_session_camera, times);
+      if (by_trusted.pose.valid && by_trusted.trusted)
+        return by_trusted;
+    }
     if (placement.pose.valid)
       return placement;
     const std::string reason = placement.reason;
@@ -113,6 +123,24 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByA
     placement.reason = implausible(view.frame, placement.pose.T_session_camera);
     placement.pose.valid = placement.reason.empty();
   }
+  return placement;
+}
+
+CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByTrusted(
+    const View& view, const Eigen::Isometry3d& T_session_camera, StageTimes* times) const
+{
+  StageTimer timer(&times->dense_ms);
+  const std::vector<const MapKeyframe*> nearest = map_.nearestViews(T_session_camera, 1, true);
+  if (nearest.empty())
+    return {};
+  const MapKeyframe& reference = *nearest.front();
+  const DenseAlignment aligned = alignDense(reference.dense(), reference.T_session_camera, view.dense, T_session_camera,
+                                            geometry::Matrix6d::Zero());
+  timer.stop();
+  if (!certain(aligned.term))
+    return {};
+  Placement placement = placeNear(view, { &reference, aligned, false }, {}, ALIGNMENT_ERROR_PX, nullptr, times);
+  placement.corrected = true;
   return placement;
 }
 
@@ -185,8 +213,17 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByR
     if (placement.pose.valid)
       return placement;
   }
-  const StageTimer feature_timer(&times->recognition_ms);
-  const Relocalisation found = relocalise(view.frame, map_, motion_.last(), seed());
+  RelocaliserOptions options;
+  options.features = FeatureKind::QUICK;
+  Relocalisation found = relocalise(view.frame, map_, motion_.last(), seed(), options);
+  const bool video = view.frame.stamp_s - previous_stamp_s_ < MIN_WIDE_STEP_S;
+  if (!found.keyframe && (!video || lost_frames_ % ROBUST_EVERY == ROBUST_EVERY - 1))
+  {
+    options.features = FeatureKind::ROBUST;
+    options.max_detections = video ? 1 : std::numeric_limits<int>::max();
+    found = relocalise(view.frame, map_, motion_.last(), seed(), options);
+  }
+  timer.stop();
   if (!found.keyframe)
   {
     Placement placement;

@@ -13,25 +13,31 @@ constexpr float MAX_DISTANCE_RATIO = 0.85F;
 constexpr float MAX_DEPTH_STEP_RATIO = 0.03F;
 
 #if CV_VERSION_MAJOR > 4 || (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR >= 4)
-cv::Ptr<cv::Feature2D> makeDetector()
+cv::Ptr<cv::Feature2D> makeRobustDetector()
 {
   return cv::SIFT::create(MAX_FEATURES, 3, 0.02);
 }
-constexpr int DESCRIPTOR_NORM = cv::NORM_L2;
 #else
-cv::Ptr<cv::Feature2D> makeDetector()
+cv::Ptr<cv::Feature2D> makeRobustDetector()
 {
   return cv::AKAZE::create(cv::AKAZE::DESCRIPTOR_MLDB, 0, 3, 5e-4F);
 }
-constexpr int DESCRIPTOR_NORM = cv::NORM_HAMMING;
 #endif
 
+cv::Ptr<cv::Feature2D> makeDetector(FeatureKind kind)
+{
+  constexpr int LEVELS = 6, BORDER_PX = 20, FAST_THRESHOLD = 12;
+  if (kind == FeatureKind::QUICK)
+    return cv::ORB::create(MAX_FEATURES, 1.3F, LEVELS, BORDER_PX, 0, 2, cv::ORB::HARRIS_SCORE, 31, FAST_THRESHOLD);
+  return makeRobustDetector();
+}
+
 /// For each row of a its nearest row of b, -1 where the second nearest is about as near.
-std::vector<int> distinctNearest(const cv::Mat& a, const cv::Mat& b)
+std::vector<int> distinctNearest(const cv::Mat& a, const cv::Mat& b, int norm)
 {
   std::vector<int> nearest(a.rows, -1);
   std::vector<std::vector<cv::DMatch>> matches;
-  cv::BFMatcher(DESCRIPTOR_NORM).knnMatch(a, b, matches, 2);
+  cv::BFMatcher(norm).knnMatch(a, b, matches, 2);
   for (const std::vector<cv::DMatch>& candidates : matches)
     if (candidates.size() == 2 && candidates[0].distance < MAX_DISTANCE_RATIO * candidates[1].distance)
       nearest[candidates[0].queryIdx] = candidates[0].trainIdx;
@@ -39,11 +45,13 @@ std::vector<int> distinctNearest(const cv::Mat& a, const cv::Mat& b)
 }
 }  // namespace
 
-WideBaselineFeatures detectWideBaselineFeatures(const rgbd::Frame& frame)
+WideBaselineFeatures detectWideBaselineFeatures(const rgbd::Frame& frame, FeatureKind kind)
 {
   std::vector<cv::KeyPoint> keypoints;
   WideBaselineFeatures features;
-  makeDetector()->detectAndCompute(frame.gray, frame.object_mask, keypoints, features.descriptors);
+  const cv::Ptr<cv::Feature2D> detector = makeDetector(kind);
+  features.norm = detector->defaultNorm();
+  detector->detectAndCompute(frame.gray, frame.object_mask, keypoints, features.descriptors);
   for (const cv::KeyPoint& keypoint : keypoints)
   {
     features.pixels.emplace_back(keypoint.pt.x, keypoint.pt.y);
@@ -56,8 +64,8 @@ std::vector<FeatureMatch> matchFeatures(const WideBaselineFeatures& a, const Wid
 {
   if (a.descriptors.rows < 2 || b.descriptors.rows < 2)
     return {};
-  const std::vector<int> b_of_a = distinctNearest(a.descriptors, b.descriptors);
-  const std::vector<int> a_of_b = distinctNearest(b.descriptors, a.descriptors);
+  const std::vector<int> b_of_a = distinctNearest(a.descriptors, b.descriptors, a.norm);
+  const std::vector<int> a_of_b = distinctNearest(b.descriptors, a.descriptors, a.norm);
   std::vector<FeatureMatch> matches;
   for (int i = 0; i < static_cast<int>(b_of_a.size()); ++i)
     if (b_of_a[i] >= 0 && a_of_b[b_of_a[i]] == i)

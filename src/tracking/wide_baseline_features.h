@@ -9,16 +9,23 @@
 
 namespace object_modelling::tracking
 {
+enum class FeatureKind
+{
+  QUICK,   ///< ORB: some ten milliseconds a frame, for views not far from a known one
+  ROBUST,  ///< SIFT (AKAZE before OpenCV 4.4): ten times as long, for wide steps
+};
+
 /// Features that are recognised from other directions and distances, with their points where there is depth.
 struct WideBaselineFeatures
 {
   std::vector<Eigen::Vector2f> pixels;
   std::vector<float> depths_m;  ///< NaN where missing
   cv::Mat descriptors;          ///< one row each
+  int norm = 0;                 ///< cv::NormTypes that tells descriptors apart
 };
 
-/// SIFT (AKAZE before OpenCV 4.4) on the frame's object mask, or on all of it where it has none.
-WideBaselineFeatures detectWideBaselineFeatures(const rgbd::Frame& frame);
+/// On the frame's object mask, or on all of it where it has none.
+WideBaselineFeatures detectWideBaselineFeatures(const rgbd::Frame& frame, FeatureKind kind);
 
 struct FeatureMatch
 {
@@ -26,7 +33,7 @@ struct FeatureMatch
   int index_b = -1;
 };
 
-/// Mutual nearest neighbours that pass the ratio test (Lowe 2004) in both directions.
+/// Of one kind: mutual nearest neighbours that pass the ratio test (Lowe 2004) in both directions.
 std::vector<FeatureMatch> matchFeatures(const WideBaselineFeatures& a, const WideBaselineFeatures& b);
 
 }  // namespace object_modelling::tracking

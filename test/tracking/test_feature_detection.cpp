@@ -123,11 +123,15 @@ TEST(FeatureDetector, TakesNoNoiseForCorners)
   EXPECT_EQ(detectFeatures(ImagePyramid(noise), {}, {}, {}).size(), 4u);
 }
 
-TEST(WideBaselineFeatures, MatchAcrossTwentyDegrees)
+TEST(WideBaselineFeatures, MatchAcrossAnglesByKind)
 {
-  const WideBaselineFeatures a = detectWideBaselineFeatures(view(0));
-  const WideBaselineFeatures b = detectWideBaselineFeatures(view(0.35));
-  EXPECT_GT(matchFeatures(a, b).size(), 15u);
-  EXPECT_TRUE(matchFeatures(a, {}).empty());
+  const auto matches = [](FeatureKind kind, double turn_rad)
+  {
+    return matchFeatures(detectWideBaselineFeatures(view(0), kind), detectWideBaselineFeatures(view(turn_rad), kind))
+        .size();
+  };
+  EXPECT_GT(matches(FeatureKind::QUICK, 0.2), 15u);
+  EXPECT_GT(matches(FeatureKind::ROBUST, 0.35), 15u);
+  EXPECT_TRUE(matchFeatures(detectWideBaselineFeatures(view(0), FeatureKind::QUICK), {}).empty());
 }
 }  // namespace object_modelling::tracking

@@ -53,6 +53,8 @@ TEST(KeyframeMap, PrefersTrustedViewsAndRecognisesOnlyThem)
   map.add(keyframe(0, orbit(0)));
   map.add(keyframe(1, orbit(0.1), false));
   EXPECT_EQ(map.nearestViews(orbit(0.1), 1)[0]->id, 0);
+  EXPECT_EQ(map.nearestViews(orbit(0.1), 2).size(), 2u);
+  EXPECT_EQ(map.nearestViews(orbit(0.1), 2, true).size(), 1u);
   const std::vector<const MapKeyframe*> similar = map.similarImages(makeThumbnail(map.keyframes()[1]->frame.gray), 5);
   ASSERT_EQ(similar.size(), 1u);
   EXPECT_EQ(similar[0]->id, 0);
