@@ -12,8 +12,8 @@ namespace
 // Hands that turn back at once: half of it times the time squared is off the prediction.
 constexpr double ACCELERATION_M_PER_S2 = 10;
 constexpr double ANGULAR_ACCELERATION_RAD_PER_S2 = 50;
-constexpr double SYSTEMATIC_TRANSLATION_RATIO = 0.0005;  // of the depth
-constexpr double SYSTEMATIC_ROTATION_RAD = 0.0004;
+constexpr double SHARED_RATIO = 1.0;       // of the rays' errors
+constexpr double MIN_SHARED_RAD = 0.0003;  // of rotation; times depth, of translation
 // A direction that is known no better is not known.
 constexpr double MAX_TRANSLATION_SIGMA_RATIO = 0.02;  // of the depth
 constexpr double MAX_ROTATION_SIGMA_RAD = 0.02;
@@ -62,9 +62,10 @@ geometry::Matrix6d robotMotionCovariance(double translation_sigma_m, double rota
   return isotropic(translation_sigma_m, rotation_sigma_rad);
 }
 
-geometry::Matrix6d systematicCovariance(double depth_m)
+geometry::Matrix6d systematicCovariance(double depth_m, double error_rad)
 {
-  return isotropic(SYSTEMATIC_TRANSLATION_RATIO * depth_m, SYSTEMATIC_ROTATION_RAD);
+  const double shared_rad = std::max(MIN_SHARED_RAD, SHARED_RATIO * error_rad);
+  return isotropic(shared_rad * depth_m, shared_rad);
 }
 
 QuadraticTerm predictionTerm(const Eigen::Isometry3d& T_session_camera, const geometry::Matrix6d& covariance_before,

@@ -19,8 +19,9 @@ geometry::Matrix6d handMotionCovariance(double elapsed_s);
 geometry::Matrix6d robotMotionCovariance(double translation_sigma_m, double rotation_sigma_rad);
 
 /// What neither landmarks nor surfaces tell of: errors that all measurements against one keyframe share (calibration,
-/// smooth distortion of depth).
-geometry::Matrix6d systematicCovariance(double depth_m);
+/// smooth distortion of depth, images exposed while the camera moves). `error_rad`: how far off the rays of the
+/// landmarks are; what makes single ones err has a part that they share.
+geometry::Matrix6d systematicCovariance(double depth_m, double error_rad);
 
 /// A predicted pose as least squares: what was known before (session frame), and of the motion since (camera frame).
 QuadraticTerm predictionTerm(const Eigen::Isometry3d& T_session_camera, const geometry::Matrix6d& covariance_before,

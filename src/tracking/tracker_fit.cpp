@@ -13,6 +13,7 @@ namespace object_modelling::tracking
 namespace
 {
 constexpr double LOST_SIGMA = 1;            // m and rad, of a camera that may be anywhere
+constexpr double SHAPE_ERROR_RAD = 0.001;   // of rays, where surfaces alone tell
 constexpr double TRUSTED_RMSE_RATIO = 0.5;  // of the inlier gate; wrong poses fill the gate evenly, which gives 0.7
 
 int countTrusted(const std::vector<LandmarkMatch>& matches)
@@ -115,8 +116,10 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeNea
     return placement;
   }
   placement.inliers = inliersOf(found.matches, placement.pose);
-  placement.relative_covariance = inSessionFrame(
-      placement.pose.covariance + systematicCovariance(reference.median_depth_m), placement.pose.T_session_camera);
+  const double error_rad = landmarks_fit ? placement.pose.reprojection_rmse_px / view.frame.camera.fx : SHAPE_ERROR_RAD;
+  placement.relative_covariance =
+      inSessionFrame(placement.pose.covariance + systematicCovariance(reference.median_depth_m, error_rad),
+                     placement.pose.T_session_camera);
   if (surfaces.chained)
     placement.relative_covariance += last_covariance_;
   placement.reason = unconstrained(

@@ -91,10 +91,12 @@ TEST(PoseUncertainty, RobotAndSystematicErrors)
   geometry::Vector6d variances;
   variances << 9e-6, 9e-6, 9e-6, 1e-4, 1e-4, 1e-4;
   EXPECT_TRUE(robot.isApprox(geometry::Matrix6d(variances.asDiagonal()), 1e-12));
-  const geometry::Matrix6d near = systematicCovariance(0.5);
-  const geometry::Matrix6d far = systematicCovariance(1.0);
-  EXPECT_GT(near.diagonal().minCoeff(), 0);
+  const geometry::Matrix6d near = systematicCovariance(0.5, 0.001);
+  const geometry::Matrix6d far = systematicCovariance(1.0, 0.001);
   EXPECT_NEAR(far(0, 0), 4 * near(0, 0), 1e-12);
   EXPECT_EQ(far(5, 5), near(5, 5));
+  // Rays that err more do so together; those that seem not to err at all are not to be believed.
+  EXPECT_NEAR(systematicCovariance(1.0, 0.002)(5, 5), 4 * far(5, 5), 1e-12);
+  EXPECT_GT(systematicCovariance(1.0, 0)(5, 5), 0);
 }
 }  // namespace object_modelling::tracking
