@@ -32,7 +32,7 @@ done
 [ -e "$recording" ] || fail "recording '$recording' does not exist"
 
 install_missing
-build
+build object_modelling_programs
 enter
 mkdir -p "$out" || fail "cannot write to $out: choose another folder with --out"
 

@@ -12,6 +12,6 @@ TEXT
   exit 0
 fi
 install_missing >&2
-build >&2
+build object_modelling_programs >&2
 enter
 exec "$@"

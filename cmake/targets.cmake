@@ -38,6 +38,7 @@ function(object_modelling_add_executable name)
   target_link_libraries(${_target} PRIVATE ${_arg_LINK})
   _object_modelling_compile_options(${_target})
   install(TARGETS ${_target} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  set_property(GLOBAL APPEND PROPERTY OBJECT_MODELLING_PROGRAMS ${_target})
 endfunction()
 
 # object_modelling_add_gtest(<library> test_a.cpp ... [LINK more]): one executable test_<library>, linked with the library

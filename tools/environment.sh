@@ -36,6 +36,7 @@ install_missing() {
     fail "installing failed; see above, then run again"
 }
 
+# build [TARGET...]: configures if needed, builds these targets, or everything.
 build() {
   mkdir -p "$build_dir"
   local launcher=() log="$build_dir/configure.log"
@@ -52,6 +53,7 @@ build() {
       { tail -n 30 "$log" >&2; fail "configuring failed; the whole log is $log"; }
   fi
   local command=(cmake --build "$build_dir")
+  [ $# -eq 0 ] || command+=(--target "$@")
   if [ -t 1 ]; then
     PATH="/usr/bin:$PATH" "${command[@]}"
   else
