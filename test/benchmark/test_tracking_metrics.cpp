@@ -96,6 +96,24 @@ TEST(TrajectoryScore, GivesDriftPerSecondOfAScaledLine)
   EXPECT_NEAR(result->rpe_deg->mean, 0.01 * 180 / M_PI, 1e-9);
 }
 
+TEST(TrajectoryScore, TellsMinutesApart)
+{
+  // Two minutes without error, one with 5 mm to and fro, none, and half a minute without again.
+  const std::vector<StampedPose> truth = circle(2700);
+  std::vector<StampedPose> estimate;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    if (i < 1800 || i >= 2400)
+      estimate.push_back({ truth[i].stamp_s, truth[i].T_map_camera });
+  for (std::size_t i = 1200; i < 1800; ++i)
+    estimate[i].T_map_camera.translation().z() += i % 2 == 0 ? 0.005 : -0.005;
+  const auto result = score(estimate, truth);
+  ASSERT_TRUE(result);
+  ASSERT_EQ(result->ate_by_minute_mm.size(), 4u);
+  const double expected_mm[] = { 0, 0, 5, 0 };
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(result->ate_by_minute_mm[i], expected_mm[i], 0.05) << i;
+}
+
 TEST(TrajectoryScore, DoesNotScale)
 {
   std::vector<StampedPose> estimate = circle();

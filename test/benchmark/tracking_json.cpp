@@ -37,6 +37,7 @@ json toJson(const std::optional<TrajectoryScore>& score)
   json result = { { "matched", score->matched },
                   { "wrong", score->wrong },
                   { "ate_mm", toJson(score->ate_mm) },
+                  { "ate_by_minute_mm", score->ate_by_minute_mm },
                   { "rotation_deg", toJson(score->rotation_deg) },
                   { "rpe_mm", score->rpe_mm ? toJson(*score->rpe_mm) : json() },
                   { "rpe_deg", score->rpe_deg ? toJson(*score->rpe_deg) : json() } };

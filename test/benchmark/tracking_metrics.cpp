@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <Eigen/SVD>
 
@@ -177,6 +178,7 @@ std::optional<TrajectoryScore> scoreTrajectory(const std::vector<source::Stamped
 
   TrajectoryScore score;
   std::vector<double> position_mm, rotation_deg;
+  std::map<int, std::vector<double>> position_by_minute_mm;
   for (std::size_t k = 0; k < matches.size(); ++k)
   {
     const source::StampedPose& true_pose = truth[matches[k].second];
@@ -194,9 +196,13 @@ std::optional<TrajectoryScore> scoreTrajectory(const std::vector<source::Stamped
     ++score.matched;
     score.wrong += pair.position_mm > options.right_mm || pair.rotation_deg > options.right_deg;
     position_mm.push_back(pair.position_mm);
+    const int minute = static_cast<int>((pair.stamp_s - truth[matches.front().second].stamp_s) / 60);
+    position_by_minute_mm[minute].push_back(pair.position_mm);
     rotation_deg.push_back(pair.rotation_deg);
   }
   score.ate_mm = statisticsOf(position_mm);
+  for (const auto& [minute, errors_mm] : position_by_minute_mm)
+    score.ate_by_minute_mm.push_back(statisticsOf(errors_mm).rmse);
   score.rotation_deg = statisticsOf(rotation_deg);
   scoreRelativeMotion(estimate, matches, counted, options, &score);
 

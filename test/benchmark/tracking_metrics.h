@@ -44,6 +44,8 @@ struct TrajectoryScore
   int matched = 0;  ///< poses compared, those within events left out
   int wrong = 0;    ///< of them, worse than right_mm or right_deg
   Statistics ate_mm, rotation_deg;
+  /// RMSE of each minute in which poses were compared: whether errors grow with time.
+  std::vector<double> ate_by_minute_mm;
   std::optional<Statistics> rpe_mm, rpe_deg;
   std::vector<Relocalisation> relocalisations;
   /// Per pair: pose of the estimate in the truth's frame, the true one, and the distance.

@@ -95,6 +95,13 @@ std::string toTable(const std::vector<RecordingReport>& reports)
   }
   for (const RecordingReport& report : reports)
   {
+    if (report.live && report.live->ate_by_minute_mm.size() > 2)
+    {
+      text += "\n" + shortName(report.recording) + ": ATE by minute";
+      for (const double ate_mm : report.live->ate_by_minute_mm)
+        text += " " + number(ate_mm, 2);
+      text += " mm\n";
+    }
     if (!report.repeatable)
       text += "\n" + shortName(report.recording) + ": the runs gave different poses\n";
     if (report.refined && !report.refined->problem.empty())
