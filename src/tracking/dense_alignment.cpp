@@ -88,7 +88,7 @@ NormalEquations equationsOf(const DenseResiduals& residuals, const DenseLevel& l
                     intensityWeight(s, residuals));
   }
   NormalEquations equations;
-  depth.addTo(&equations, 1 / options.correlated_depths);
+  depth.addTo(&equations, residuals.pixels_per_point / options.correlated_depths);
   intensity.addTo(&equations, residuals.edges_per_point / options.correlated_intensities);
   return equations;
 }
@@ -120,7 +120,7 @@ geometry::Matrix6d noiseOf(const DenseResiduals& residuals, const DenseLevel& le
     }
   }
   NormalEquations noise;
-  depth.addTo(&noise, NOISE_SAMPLES / options.correlated_depths);
+  depth.addTo(&noise, NOISE_SAMPLES * residuals.pixels_per_point / options.correlated_depths);
   intensity.addTo(&noise, NOISE_SAMPLES * residuals.edges_per_point / options.correlated_intensities);
   return noise.A;
 }

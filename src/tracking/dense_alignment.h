@@ -9,9 +9,9 @@ namespace object_modelling::tracking
 {
 struct DenseAlignmentOptions
 {
-  /// Neighbouring pixels err alike (interpolation, calibration, smooth distortion of depth): this many of them say as
-  /// much as one independent measurement.
-  double correlated_depths = 15;
+  /// Neighbouring pixels err alike (interpolation, calibration, smooth distortion of depth): this many of them, at the
+  /// finest level for depth, say as much as one independent measurement.
+  double correlated_depths = 120;
   double correlated_intensities = 10;
   int max_iterations = 8;  ///< per level
   /// Levels used, 0: the finest. From coarsest to finest; the same for a start that is good already.

@@ -86,16 +86,18 @@ DensePoints referencePoints(const DenseLevel& level)
   normal_options.radius_px = 2;
   normal_options.max_depth_step_ratio = 0.04;
   const cv::Mat normals = rgbd::computeNormals(asFrame(level), normal_options);
+  cv::Mat valid = level.depth_m == level.depth_m;  // false for NaN
+  if (!level.mask.empty())
+    valid.setTo(0, level.mask == 0);
   cv::Mat edges(level.gray.size(), CV_8UC1, cv::Scalar(0));
   for (int v = 1; v < edges.rows - 1; ++v)
     for (int u = 1; u < edges.cols - 1; ++u)
-      edges.at<std::uint8_t>(v, u) = !std::isnan(level.depth_m.at<float>(v, u)) &&
-                                     (level.mask.empty() || level.mask.at<std::uint8_t>(v, u) != 0) &&
-                                     gradientAt(level.gray, u, v) >= MIN_GRADIENT;
+      edges.at<std::uint8_t>(v, u) = valid.at<std::uint8_t>(v, u) != 0 && gradientAt(level.gray, u, v) >= MIN_GRADIENT;
   const int every_edge = std::max(1, stride(static_cast<std::size_t>(cv::countNonZero(edges)), MAX_EDGE_POINTS));
-  const int grid = std::max(1, stride(level.depth_m.total(), MAX_GRID_POINTS));
+  const int grid = std::max(1, stride(static_cast<std::size_t>(cv::countNonZero(valid)), MAX_GRID_POINTS));
   const int shear = grid / 3 + 1;  // from row to row, so that the grid is about as wide as high
   DensePoints points;
+  points.pixels_per_point = grid;
   points.edges_per_point = every_edge;
   int edge = 0;
   for (int v = 1; v < level.depth_m.rows - 1; ++v)
@@ -103,10 +105,10 @@ DensePoints referencePoints(const DenseLevel& level)
     const auto* depth = level.depth_m.ptr<float>(v);
     const auto* normal = normals.ptr<cv::Vec3f>(v);
     const auto* is_edge = edges.ptr<std::uint8_t>(v);
-    const auto* mask = level.mask.empty() ? nullptr : level.mask.ptr<std::uint8_t>(v);
+    const auto* is_valid = valid.ptr<std::uint8_t>(v);
     for (int u = 1; u < level.depth_m.cols - 1; ++u)
     {
-      if (std::isnan(depth[u]) || (mask && mask[u] == 0))
+      if (is_valid[u] == 0)
         continue;
       DensePoint point;
       point.textured = is_edge[u] != 0 && edge++ % every_edge == 0;
@@ -152,7 +154,11 @@ DensePyramid::DensePyramid(const rgbd::Frame& frame, const std::vector<cv::Mat>&
 DenseReference::DenseReference(const DensePyramid& pyramid)
 {
   for (const DenseLevel& level : pyramid.levels())
+  {
     levels_.push_back(referencePoints(level));
+    const double coarse = level.step / static_cast<double>(pyramid.levels().front().step);
+    levels_.back().pixels_per_point *= coarse * coarse;
+  }
 }
 
 }  // namespace object_modelling::tracking

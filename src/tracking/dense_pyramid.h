@@ -46,7 +46,8 @@ struct DensePoint
 struct DensePoints
 {
   std::vector<DensePoint> all;
-  double edges_per_point = 1;  ///< so many pixels of edges stand behind each textured point
+  double pixels_per_point = 1;  ///< so many pixels of the finest level stand behind each point with a normal
+  double edges_per_point = 1;   ///< so many pixels of edges stand behind each textured point
 };
 
 /// Points of one frame, level by level as in its DensePyramid.

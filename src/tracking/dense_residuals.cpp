@@ -112,6 +112,7 @@ void observe(const DensePoints& points, const DenseLevel& level, const Eigen::Is
   const auto max_u = static_cast<float>(level.gray.cols - 3);
   const auto max_v = static_cast<float>(level.gray.rows - 3);
   residuals->in_view = residuals->with_depth = residuals->agreeing = 0;
+  residuals->pixels_per_point = points.pixels_per_point;
   residuals->edges_per_point = points.edges_per_point;
   residuals->all.clear();
   residuals->all.reserve(points.all.size());

@@ -26,13 +26,13 @@ struct DenseResidual
 struct DenseResiduals
 {
   std::vector<DenseResidual> all;
-  double edges_per_point = 1;  ///< as DensePoints
-  int in_view = 0;             ///< points that project into the frame and are not hidden
-  int with_depth = 0;          ///< of them with a normal and measured depth ...
-  int agreeing = 0;            ///< ... and where that is as predicted
-  double correlation = 0;      ///< of the intensities
-  float depth_scale = 1;       ///< robust standard deviation of the depth residuals over their sigma
-  float intensity_scale = 1;   ///< of the intensity residuals, grey levels
+  double pixels_per_point = 1, edges_per_point = 1;  ///< as DensePoints
+  int in_view = 0;                                   ///< points that project into the frame and are not hidden
+  int with_depth = 0;                                ///< of them with a normal and measured depth ...
+  int agreeing = 0;                                  ///< ... and where that is as predicted
+  double correlation = 0;                            ///< of the intensities
+  float depth_scale = 1;      ///< robust standard deviation of the depth residuals over their sigma
+  float intensity_scale = 1;  ///< of the intensity residuals, grey levels
 };
 
 /// Standard deviation of a difference of two depths, averaged over neighbours, along the optical axis.
