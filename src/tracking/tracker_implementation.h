@@ -67,7 +67,8 @@ private:
   std::optional<QuadraticTerm> predictByRobot() const;
 
   Placement placeByAlignment(const View& view, const QuadraticTerm& prediction, StageTimes* times) const;
-  /// A frame that was placed in doubt, by the trusted keyframes that see the same; not valid if none does.
+  /// A frame that was placed in doubt by keyframes in doubt, by the trusted ones that see the same; not valid if none
+  /// does.
   Placement placeByTrusted(const View& view, const Eigen::Isometry3d& T_session_camera, StageTimes* times) const;
   Placement placeByFlow(const View& view, const QuadraticTerm& prediction, StageTimes* times) const;
   Placement placeByRecognition(const View& view, StageTimes* times) const;

@@ -55,7 +55,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::place(co
     // A robot that says what cannot be (wrong frame, clock or calibration) has no say at all.
     if (by_robot && (!placement.pose.valid || contradicts(placement.pose, *by_robot)))
       placement = placeByAlignment(view, by_hand, times);
-    if (placement.pose.valid && !placement.trusted)
+    if (placement.pose.valid && !placement.trusted && !placement.reference->trusted)
     {
       const Placement by_trusted = placeByTrusted(view, placement.pose.T_session_camera, times);
       if (by_trusted.pose.valid && by_trusted.trusted)
