@@ -8,14 +8,15 @@ namespace object_modelling::tracking
 {
 namespace
 {
-constexpr int MAX_FEATURES = 1000;
+constexpr int MAX_ROBUST_FEATURES = 1000;
+constexpr int MAX_QUICK_FEATURES = 500;  // comparing all with all takes longer than finding them
 constexpr float MAX_DISTANCE_RATIO = 0.85F;
 constexpr float MAX_DEPTH_STEP_RATIO = 0.03F;
 
 #if CV_VERSION_MAJOR > 4 || (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR >= 4)
 cv::Ptr<cv::Feature2D> makeRobustDetector()
 {
-  return cv::SIFT::create(MAX_FEATURES, 3, 0.02);
+  return cv::SIFT::create(MAX_ROBUST_FEATURES, 3, 0.02);
 }
 #else
 cv::Ptr<cv::Feature2D> makeRobustDetector()
@@ -28,7 +29,8 @@ cv::Ptr<cv::Feature2D> makeDetector(FeatureKind kind)
 {
   constexpr int LEVELS = 6, BORDER_PX = 20, FAST_THRESHOLD = 12;
   if (kind == FeatureKind::QUICK)
-    return cv::ORB::create(MAX_FEATURES, 1.3F, LEVELS, BORDER_PX, 0, 2, cv::ORB::HARRIS_SCORE, 31, FAST_THRESHOLD);
+    return cv::ORB::create(MAX_QUICK_FEATURES, 1.3F, LEVELS, BORDER_PX, 0, 2, cv::ORB::HARRIS_SCORE, 31,
+                           FAST_THRESHOLD);
   return makeRobustDetector();
 }
 
