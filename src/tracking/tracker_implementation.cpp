@@ -68,7 +68,6 @@ TrackingResult CameraTracker::Implementation::trackUsable(const rgbd::Frame& fra
     return result;
   ++frame_count_;
   ++frames_since_keyframe_;
-  previous_stamp_s_ = last_stamp_s_;
   last_stamp_s_ = frame.stamp_s;
 
   StageTimer timer(&result.times.pyramid_ms);
@@ -98,6 +97,8 @@ TrackingResult CameraTracker::Implementation::trackUsable(const rgbd::Frame& fra
   result.status = lost_ ? TrackingStatus::RELOCALISED : TrackingStatus::TRACKING;
   if (lost_)
     result.reason = "recognised a known view again";
+  else if (placement.corrected)
+    result.reason = placement.reason;
   motion_.add(frame.stamp_s, placement.pose.T_session_camera, !lost_ && !placement.corrected);
   T_robot_camera_last_ = T_robot_camera_;
   lost_ = false;

@@ -95,8 +95,7 @@ private:
   MotionModel motion_;
   geometry::PinholeCamera camera_;
   double last_stamp_s_ = 0;
-  double previous_stamp_s_ = 0;  ///< of the frame before the one being placed
-  int lost_frames_ = 0;          ///< since the last one that was placed
+  int lost_frames_ = 0;  ///< since the last one that was placed
   std::uint64_t frame_count_ = 0;
   std::uint64_t next_landmark_id_ = 0;
   int next_keyframe_id_ = 0;

@@ -140,7 +140,12 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByT
   if (!certain(aligned.term))
     return {};
   Placement placement = placeNear(view, { &reference, aligned, false }, {}, ALIGNMENT_ERROR_PX, nullptr, times);
+  if (!placement.pose.valid)
+    return placement;
   placement.corrected = true;
+  const double off_mm = 1e3 * (placement.pose.T_session_camera.translation() - T_session_camera.translation()).norm();
+  placement.reason =
+      "among known views again, " + std::to_string(std::lround(off_mm)) + " mm from where blurred or poor ones had led";
   return placement;
 }
 
@@ -216,7 +221,9 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByR
   RelocaliserOptions options;
   options.features = FeatureKind::QUICK;
   Relocalisation found = relocalise(view.frame, map_, motion_.last(), seed(), options);
-  const bool video = view.frame.stamp_s - previous_stamp_s_ < MIN_WIDE_STEP_S;
+  // By frames that were placed: a covered camera delivers none.
+  const double interval_s = last_placed_s_ - previous_placed_s_;
+  const bool video = interval_s > 0 && interval_s < MIN_WIDE_STEP_S;
   if (!found.keyframe && (!video || lost_frames_ % ROBUST_EVERY == ROBUST_EVERY - 1))
   {
     options.features = FeatureKind::ROBUST;

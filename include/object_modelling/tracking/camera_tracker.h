@@ -56,7 +56,8 @@ struct TrackingResult
 {
   double stamp_s = 0;
   TrackingStatus status = TrackingStatus::NOT_STARTED;
-  std::string reason;  ///< why lost or not started, why a keyframe was refused; empty when all is well
+  std::string reason;  ///< why lost or not started, why a keyframe was refused, that a drift was corrected; empty when
+                       ///< all is well
   Eigen::Isometry3d T_session_camera = Eigen::Isometry3d::Identity();  ///< valid if tracked()
   geometry::Matrix6d covariance = geometry::Matrix6d::Zero();          ///< of T_session_camera
   int feature_count = 0;
@@ -71,10 +72,11 @@ struct TrackingResult
   bool tracked() const { return status == TrackingStatus::TRACKING || status == TrackingStatus::RELOCALISED; }
 };
 
-/// Handheld RGB-D camera tracking after Aldoma et al. 2015, section 3.1: KLT from frame to frame, projective patch
-/// refinement against the keyframe that sees most of the same (so that coming round again closes the loop), seeded
-/// RANSAC, robust least squares on reprojection and depth; wide-baseline feature matching where KLT cannot follow and
-/// to relocalise. The session frame is the optical frame of the first keyframe. Not thread safe.
+/// Handheld RGB-D camera tracking: surfaces (depth and intensity; Kerl, Sturm, Cremers 2013) against the keyframe that
+/// sees most of the same, so that coming round again closes the loop; landmarks by projective patch refinement (Aldoma
+/// et al. 2015, section 3.1); one robust least squares on both and on the predicted motion. Optical flow where that
+/// fails, recognition of keyframes after a loss (docs/tracking.md). The session frame is the optical frame of the first
+/// keyframe. Not thread safe.
 class CameraTracker
 {
 public:
