@@ -58,7 +58,7 @@ cv::Mat wholeWindows(const PaddedDepth& padded, float step_ratio)
     for (int u = 0; u < whole.cols; ++u)
     {
       const float gate = step_ratio * depth[u];
-      out[u] = (low[u] > 0) & (depth[u] - low[u] <= gate) & (high[u] - depth[u] <= gate) ? 255 : 0;
+      out[u] = ((low[u] > 0) & (depth[u] - low[u] <= gate) & (high[u] - depth[u] <= gate)) ? 255 : 0;
     }
   }
   return whole;
