@@ -84,6 +84,7 @@ nlohmann::json toJson(const refinement::BundleAdjustmentResult& result)
            { "iterations", result.iterations },
            { "initial_cost", result.initial_cost },
            { "final_cost", result.final_cost },
+           { "color_offset_px", { result.color_offset_px.x(), result.color_offset_px.y() } },
            { "left_out", result.left_out },
            { "keyframes", keyframes },
            { "links", links } };
@@ -133,6 +134,9 @@ std::string toText(const refinement::BundleAdjustmentResult& result)
       << 1000 * rmseOf(result.residuals, &Residual::depth_rmse_after_m) << " mm RMSE";
   if (!result.left_out.empty())
     out << "; " << result.left_out.size() << " left out (nothing links them)";
+  if (!result.color_offset_px.isZero())
+    out << "; colour is shifted by (" << result.color_offset_px.x() << ", " << result.color_offset_px.y()
+        << ") px against depth";
   out << "\n";
   if (!result.status.ok())
     out << "          " << result.status.message << "\n";

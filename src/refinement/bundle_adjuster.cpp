@@ -100,7 +100,13 @@ void BundleAdjuster::findLinks(Adjustment* adjustment)
   adjustment->links = linkKeyframes(keyframes_, shared, enough_shared, linkerOptions(options_), *control_);
   for (const VerifiedLink& link : adjustment->links)
     link_edges_.push_back(edgeOfLink(link, keyframes_));
-  surface_links_ = linkSurfaces(keyframes_, options_.object_only, *control_);
+  // Surfaces are aligned by their grey levels too, and would hold on to the offset that they were aligned with.
+  if (options_.calibrate_color_offset)
+  {
+    adjustment->active.assign(adjustment->links.size(), true);
+    adjust(adjustment);
+  }
+  surface_links_ = linkSurfaces(keyframes_, adjustment->state.color_offset_px, options_.object_only, *control_);
 }
 
 Eigen::MatrixXi BundleAdjuster::connections(const std::vector<SightGroup>& groups) const
@@ -191,6 +197,8 @@ void BundleAdjuster::solve(int fixed, Adjustment* adjustment) const
   solver.threads = options_.threads;
   solver.loss_width_sigmas = options_.loss_width_sigmas;
   solver.max_iterations = options_.max_iterations;
+  solver.calibrate_color_offset = options_.calibrate_color_offset;
+  fitDepths(keyframes_, &state.map);
   adjustment->summary = solveBundle(keyframes_, fixed, solver, *control_, &state);
   adjustment->iterations += adjustment->summary.iterations;
   if (!adjustment->summary.usable)

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include <ceres/ceres.h>
+#include <ceres/normal_prior.h>
 
 #include "cost_functions.h"
 #include "object_modelling/geometry/transform.h"
@@ -16,7 +17,8 @@ namespace object_modelling::refinement
 {
 namespace
 {
-constexpr double SURFACE_LOSS_FACTOR = 2;  // six residuals at once are larger than one
+constexpr double SURFACE_LOSS_FACTOR = 2;    // six residuals at once are larger than one
+constexpr double COLOR_OFFSET_SIGMA_PX = 1;  // as they come from the factory
 
 /// Reports progress, and stops the solver when the callback or a cancellation throws; the exception waits until the
 /// solver has returned.
@@ -78,6 +80,7 @@ BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, in
     cameras.emplace_back(keyframes[k].frame.camera, state->T_session_camera[k]);
   std::vector<geometry::Vector6d> motions(keyframes.size(), geometry::Vector6d::Zero());
   std::vector<Eigen::Vector3d> landmarks = state->map.landmarks;
+  Eigen::Vector2d color_offset_px = state->color_offset_px;
 
   const std::unique_ptr<ceres::LossFunction> loss = std::make_unique<ceres::CauchyLoss>(options.loss_width_sigmas);
   ceres::Problem::Options problem_options;
@@ -91,11 +94,13 @@ BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, in
     double* motion = motions[sight.keyframe].data();
     double* landmark = landmarks[sight.landmark].data();
     const LinearisedCamera* camera = &cameras[sight.keyframe];
-    problem.AddResidualBlock(new ReprojectionCost(camera, sight.pixel, sight.sigma_px), loss.get(), motion, landmark);
+    problem.AddResidualBlock(new ReprojectionCost(camera, sight.pixel, sight.sigma_px), loss.get(), motion, landmark,
+                             color_offset_px.data());
     if (sight.depth_m > 0)
     {
-      problem.AddResidualBlock(new DepthCost(camera, sight.depth_m, rgbd::axialSigma_m(sight.depth_m, 0)), loss.get(),
-                               motion, landmark);
+      problem.AddResidualBlock(
+          new DepthCost(camera, sight.depth_m, sight.depth_slope_m_px, rgbd::axialSigma_m(sight.depth_m, 0)),
+          loss.get(), motion, landmark, color_offset_px.data());
     }
     solver_options.linear_solver_ordering->AddElementToGroup(landmark, 0);
     solver_options.linear_solver_ordering->AddElementToGroup(motion, 1);
@@ -114,6 +119,17 @@ BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, in
   }
   if (fixed_keyframe >= 0 && seen[fixed_keyframe])
     problem.SetParameterBlockConstant(motions[fixed_keyframe].data());
+
+  if (!state->map.sights.empty())
+  {
+    // Where no depth has a slope nothing else tells the offset.
+    problem.AddResidualBlock(
+        new ceres::NormalPrior(Eigen::Matrix2d::Identity() / COLOR_OFFSET_SIGMA_PX, Eigen::Vector2d::Zero()), nullptr,
+        color_offset_px.data());
+    solver_options.linear_solver_ordering->AddElementToGroup(color_offset_px.data(), 1);
+    if (!options.calibrate_color_offset)
+      problem.SetParameterBlockConstant(color_offset_px.data());
+  }
 
   ProgressCallback callback(&control, options.max_iterations);
   solver_options.callbacks.push_back(&callback);
@@ -136,6 +152,7 @@ BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, in
     }
   }
   state->map.landmarks = std::move(landmarks);
+  state->color_offset_px = color_offset_px;
   return result;
 }
 
@@ -144,9 +161,9 @@ SightError sightError(const Sight& sight, const geometry::PinholeCamera& camera,
   const Eigen::Vector3d p_camera =
       state.T_session_camera[sight.keyframe].inverse() * state.map.landmarks[sight.landmark];
   SightError error;
-  error.pixel_px =
-      p_camera.z() > 1e-3 ? (camera.project(p_camera) - sight.pixel).norm() : std::numeric_limits<double>::infinity();
-  error.depth_m = p_camera.z() - sight.depth_m;
+  error.pixel_px = p_camera.z() > 1e-3 ? (camera.project(p_camera) + state.color_offset_px - sight.pixel).norm()
+                                       : std::numeric_limits<double>::infinity();
+  error.depth_m = p_camera.z() - sight.depth_m + sight.depth_slope_m_px.dot(state.color_offset_px);
   return error;
 }
 

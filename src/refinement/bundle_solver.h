@@ -13,6 +13,7 @@ struct BundleSolverOptions
   double loss_width_sigmas = 2;
   int max_iterations = 50;
   int threads = 1;
+  bool calibrate_color_offset = false;  ///< else it stays as it is in the state
 };
 
 struct BundleSolverSummary
@@ -28,10 +29,13 @@ struct BundleState
   std::vector<Eigen::Isometry3d> T_session_camera;
   LandmarkMap map;
   std::vector<SurfaceLink> surface_links;
+  /// Pixel of a point in the colour image minus its pixel in the depth image.
+  Eigen::Vector2d color_offset_px = Eigen::Vector2d::Zero();
 };
 
 /// One run of Levenberg-Marquardt over all poses and landmarks (Ceres, landmarks eliminated first), Cauchy loss on
-/// every pixel and every depth on its own, so that a bad depth does not cost a good pixel. `fixed_keyframe` stays where
+/// every pixel and every depth on its own, so that a bad depth does not cost a good pixel; with them, if asked for, the
+/// offset of the colour images. `fixed_keyframe` stays where
 /// it is. `state` is changed only if the summary is usable. Rethrows what `control` throws.
 BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, int fixed_keyframe,
                                 const BundleSolverOptions& options, base::JobControl& control, BundleState* state);

@@ -13,6 +13,7 @@ constexpr double BEHIND_SIGMAS = 1e3;
 
 using MotionJacobian = Eigen::Map<Eigen::Matrix<double, 2, 6, Eigen::RowMajor>>;
 using PointJacobian = Eigen::Map<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>>;
+using OffsetJacobian = Eigen::Map<Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>;
 
 }  // namespace
 
@@ -46,10 +47,12 @@ bool ReprojectionCost::Evaluate(const double* const* parameters, double* residua
       MotionJacobian{ jacobians[0] }.setZero();
     if (derive && jacobians[1] != nullptr)
       PointJacobian{ jacobians[1] }.setZero();
+    if (derive && jacobians[2] != nullptr)
+      OffsetJacobian{ jacobians[2] }.setZero();
     return true;
   }
-  residuals[0] = (camera_->fx * p.x() / p.z() + camera_->cx - pixel_.x()) / sigma_px_;
-  residuals[1] = (camera_->fy * p.y() / p.z() + camera_->cy - pixel_.y()) / sigma_px_;
+  residuals[0] = (camera_->fx * p.x() / p.z() + camera_->cx + parameters[2][0] - pixel_.x()) / sigma_px_;
+  residuals[1] = (camera_->fy * p.y() / p.z() + camera_->cy + parameters[2][1] - pixel_.y()) / sigma_px_;
   if (!derive)
     return true;
   Eigen::Matrix<double, 2, 3> by_camera_point;
@@ -60,6 +63,8 @@ bool ReprojectionCost::Evaluate(const double* const* parameters, double* residua
     MotionJacobian{ jacobians[0] }.noalias() = by_camera_point * by_motion;
   if (jacobians[1] != nullptr)
     PointJacobian{ jacobians[1] }.noalias() = by_camera_point * by_point;
+  if (jacobians[2] != nullptr)
+    OffsetJacobian{ jacobians[2] } = Eigen::Matrix2d::Identity() / sigma_px_;
   return true;
 }
 
@@ -70,7 +75,8 @@ bool DepthCost::Evaluate(const double* const* parameters, double* residuals, dou
   const bool derive = jacobians != nullptr;
   const Eigen::Vector3d p =
       camera_->transform(parameters[0], parameters[1], derive ? &by_motion : nullptr, derive ? &by_point : nullptr);
-  residuals[0] = (p.z() - depth_m_) / sigma_m_;
+  residuals[0] =
+      (p.z() - depth_m_ + slope_m_px_.x() * parameters[2][0] + slope_m_px_.y() * parameters[2][1]) / sigma_m_;
   residuals[1] = 0;
   if (!derive)
     return true;
@@ -78,6 +84,8 @@ bool DepthCost::Evaluate(const double* const* parameters, double* residuals, dou
     MotionJacobian{ jacobians[0] } << by_motion.row(2) / sigma_m_, Eigen::Matrix<double, 1, 6>::Zero();
   if (jacobians[1] != nullptr)
     PointJacobian{ jacobians[1] } << by_point.row(2) / sigma_m_, Eigen::RowVector3d::Zero();
+  if (jacobians[2] != nullptr)
+    OffsetJacobian{ jacobians[2] } << slope_m_px_.transpose() / sigma_m_, Eigen::RowVector2d::Zero();
   return true;
 }
 

@@ -27,8 +27,9 @@ struct LinearisedCamera
                             Eigen::Matrix3d* by_point) const;
 };
 
-/// Pixel of a landmark minus its observation, in sigmas. Blocks: motion (6), landmark in the session frame (3).
-class ReprojectionCost : public ceres::SizedCostFunction<2, 6, 3>
+/// Pixel of a landmark minus its observation, in sigmas. Blocks: motion (6), landmark in the session frame (3), offset
+/// of the colour image against the depth image (2, px).
+class ReprojectionCost : public ceres::SizedCostFunction<2, 6, 3, 2>
 {
 public:
   /// `camera` must outlive the cost.
@@ -47,11 +48,13 @@ private:
 /// Depth of a landmark minus its observation, in sigmas. Blocks as above. The second residual is always 0: Ceres has
 /// its Schur elimination compiled for residual blocks of 2 rows; blocks that differ cost a fifth of the whole time
 /// more.
-class DepthCost : public ceres::SizedCostFunction<2, 6, 3>
+class DepthCost : public ceres::SizedCostFunction<2, 6, 3, 2>
 {
 public:
-  DepthCost(const LinearisedCamera* camera, double depth_m, double sigma_m)
-      : camera_(camera), depth_m_(depth_m), sigma_m_(sigma_m)
+  /// The depth was read at the landmark's pixel in the colour image. Where the images are offset that is beside it by
+  /// the offset, and `slope_m_px` tells what the depth is there.
+  DepthCost(const LinearisedCamera* camera, double depth_m, const Eigen::Vector2d& slope_m_px, double sigma_m)
+      : camera_(camera), depth_m_(depth_m), slope_m_px_(slope_m_px), sigma_m_(sigma_m)
   {
   }
   bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override;
@@ -59,6 +62,7 @@ public:
 private:
   const LinearisedCamera* camera_;
   double depth_m_;
+  Eigen::Vector2d slope_m_px_;
   double sigma_m_;
 };
 

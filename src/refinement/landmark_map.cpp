@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "object_modelling/rgbd/sensor_noise_model.h"
+#include "object_modelling/rgbd/surface_fit.h"
 
 namespace object_modelling::refinement
 {
@@ -164,6 +165,26 @@ void replaceLandmarks(const std::vector<rgbd::Keyframe>& keyframes,
       continue;
     place(of_landmark, keyframes, T_session_camera, &map->landmarks[landmark]);
     of_landmark.clear();
+  }
+}
+
+void fitDepths(const std::vector<rgbd::Keyframe>& keyframes, LandmarkMap* map)
+{
+  for (Sight& sight : map->sights)
+  {
+    if (!(sight.depth_m > 0))
+      continue;
+    const rgbd::Frame& frame = keyframes[sight.keyframe].frame;
+    if (frame.depth_m.empty())
+      continue;
+    const std::optional<rgbd::SurfacePoint> surface = rgbd::fitSurface(frame, sight.pixel);
+    if (!surface)
+      continue;
+    // A plane has n . p = c, so that z = c / (n . ray).
+    const Eigen::Vector2d n_px(surface->n.x() / frame.camera.fx, surface->n.y() / frame.camera.fy);
+    const double z = surface->p.z();
+    sight.depth_m = z;
+    sight.depth_slope_m_px = -z * z / surface->n.dot(surface->p) * n_px;
   }
 }
 

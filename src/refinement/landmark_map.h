@@ -16,6 +16,7 @@ struct Sight
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double depth_m = 0;  ///< NaN where none
   double sigma_px = 0;
+  Eigen::Vector2d depth_slope_m_px = Eigen::Vector2d::Zero();  ///< change of depth_m from pixel to pixel, x and y
 };
 
 /// Everything that bundle adjustment works on, in flat arrays. Sights are ordered by landmark.
@@ -45,6 +46,10 @@ LandmarkMap placeLandmarks(const std::vector<SightGroup>& groups, const std::vec
 /// New places for the landmarks of a map, from other poses; those that cannot be placed stay.
 void replaceLandmarks(const std::vector<rgbd::Keyframe>& keyframes,
                       const std::vector<Eigen::Isometry3d>& T_session_camera, LandmarkMap* map);
+
+/// Fits the surface round every sight that has depth: depth_m and depth_slope_m_px are then the fit's. Where none fits,
+/// the reading stays, and the slope is 0.
+void fitDepths(const std::vector<rgbd::Keyframe>& keyframes, LandmarkMap* map);
 
 /// Number of landmarks that each pair of keyframes shares, as a symmetric count matrix.
 Eigen::MatrixXi sharedLandmarks(const std::vector<SightGroup>& groups, std::size_t keyframe_count);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include <opencv2/core/utility.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "object_modelling/refinement/keyframe_linker.h"
 #include "object_modelling/tracking/surface_alignment.h"
@@ -17,6 +18,7 @@ namespace
 constexpr double MIN_OVERLAP_RATIO = 0.4;
 constexpr double MAX_VIEW_ANGLE_RAD = 0.7;
 constexpr int MAX_PARTNERS = 4;
+constexpr double NO_OFFSET_PX = 0.01;
 constexpr int BATCH = 16;
 constexpr int DEPTH_STEP_PX = 16;
 constexpr double PATCH_RATIO = 0.3;    // of the depth: half the field of view
@@ -24,6 +26,17 @@ constexpr double DRIFT_RATIO = 0.004;  // of the depth, as for other edges
 // There and back again: more between them, and one of the two has slid.
 constexpr double MAX_CONTRADICTION_M = 0.03;
 constexpr double MAX_CONTRADICTION_RAD = 0.03;
+
+/// The grey image in the pixels of the depth image.
+cv::Mat ontoDepth(const cv::Mat& gray, const Eigen::Vector2d& color_offset_px)
+{
+  if (color_offset_px.norm() < NO_OFFSET_PX)
+    return gray;
+  const cv::Matx23d shift(1, 0, color_offset_px.x(), 0, 1, color_offset_px.y());
+  cv::Mat shifted;
+  cv::warpAffine(gray, shifted, shift, gray.size(), cv::INTER_CUBIC | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
+  return shifted;
+}
 
 std::vector<IndexPair> overlappingPairs(const std::vector<rgbd::Keyframe>& keyframes, bool object_only)
 {
@@ -78,7 +91,8 @@ std::optional<SurfaceLink> linkPair(const std::vector<rgbd::Keyframe>& keyframes
 }
 }  // namespace
 
-std::vector<SurfaceLink> linkSurfaces(const std::vector<rgbd::Keyframe>& keyframes, bool object_only,
+std::vector<SurfaceLink> linkSurfaces(const std::vector<rgbd::Keyframe>& keyframes,
+                                      const Eigen::Vector2d& color_offset_px, bool object_only,
                                       base::JobControl& control)
 {
   const auto usable = [](const rgbd::Keyframe& keyframe)
@@ -91,6 +105,7 @@ std::vector<SurfaceLink> linkSurfaces(const std::vector<rgbd::Keyframe>& keyfram
     rgbd::Frame frame = keyframe.frame;
     if (!object_only)
       frame.object_mask.release();
+    frame.gray = ontoDepth(frame.gray, color_offset_px);
     views.emplace_back(frame);
   }
   const std::vector<IndexPair> pairs = overlappingPairs(keyframes, object_only);

@@ -19,7 +19,8 @@ struct SurfaceLink
 
 /// Aligns neighbours in time, and each keyframe with those that by the poses see most of the same, in both directions:
 /// a link needs both to agree. What holds scenes without print together.
-std::vector<SurfaceLink> linkSurfaces(const std::vector<rgbd::Keyframe>& keyframes, bool object_only,
+std::vector<SurfaceLink> linkSurfaces(const std::vector<rgbd::Keyframe>& keyframes,
+                                      const Eigen::Vector2d& color_offset_px, bool object_only,
                                       base::JobControl& control);
 
 /// The same as an edge of the pose graph.

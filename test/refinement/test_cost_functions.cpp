@@ -42,7 +42,8 @@ void expectRightDerivatives(const ceres::CostFunction& cost, const Eigen::Vector
   ceres::GradientChecker checker(&cost, manifolds, numeric);
   for (const geometry::Vector6d& motion : motions)
   {
-    const double* parameters[2] = { motion.data(), landmark.data() };
+    const Eigen::Vector2d offset_px(0.3, -0.7);
+    const double* parameters[3] = { motion.data(), landmark.data(), offset_px.data() };
     ceres::GradientChecker::ProbeResults results;
     EXPECT_TRUE(checker.Probe(parameters, 1e-6, &results)) << results.error_log;
   }
@@ -52,7 +53,7 @@ TEST(CostFunctions, haveRightDerivatives)
 {
   const LinearisedCamera camera = makeCamera();
   expectRightDerivatives(ReprojectionCost(&camera, { 350, 220 }, 0.5), makeLandmark(camera));
-  expectRightDerivatives(DepthCost(&camera, 0.78, 0.0015), makeLandmark(camera));
+  expectRightDerivatives(DepthCost(&camera, 0.78, { 0.002, -0.001 }, 0.0015), makeLandmark(camera));
 }
 
 TEST(CostFunctions, countInSigmas)
@@ -60,14 +61,23 @@ TEST(CostFunctions, countInSigmas)
   const LinearisedCamera camera = makeCamera();
   const Eigen::Vector3d landmark = makeLandmark(camera);
   const geometry::Vector6d motion = geometry::Vector6d::Zero();
-  const double* parameters[2] = { motion.data(), landmark.data() };
+  Eigen::Vector2d offset_px(0, 0);
+  const double* parameters[3] = { motion.data(), landmark.data(), offset_px.data() };
   const Eigen::Vector2d pixel(531 * 0.1 / 0.8 + 322, 527 * -0.05 / 0.8 + 237);
   double residuals[2];
   ASSERT_TRUE(ReprojectionCost(&camera, pixel - Eigen::Vector2d(1, -2), 0.5).Evaluate(parameters, residuals, nullptr));
   EXPECT_NEAR(residuals[0], 2, 1e-9);
   EXPECT_NEAR(residuals[1], -4, 1e-9);
-  ASSERT_TRUE(DepthCost(&camera, 0.803, 0.001).Evaluate(parameters, residuals, nullptr));
+  const DepthCost depth_cost(&camera, 0.803, { 0.002, -0.001 }, 0.001);
+  ASSERT_TRUE(depth_cost.Evaluate(parameters, residuals, nullptr));
   EXPECT_NEAR(residuals[0], -3, 1e-9);
+  // Colour is shifted to the right and down: the landmark's depth is to be read further left and up.
+  offset_px = { 1, 2 };
+  ASSERT_TRUE(ReprojectionCost(&camera, pixel + offset_px, 0.5).Evaluate(parameters, residuals, nullptr));
+  EXPECT_NEAR(residuals[0], 0, 1e-9);
+  EXPECT_NEAR(residuals[1], 0, 1e-9);
+  ASSERT_TRUE(depth_cost.Evaluate(parameters, residuals, nullptr));
+  EXPECT_NEAR(residuals[0], (0.8 - (0.803 - 1 * 0.002 - 2 * -0.001)) / 0.001, 1e-9);
 }
 
 TEST(CostFunctions, countALandmarkBehindTheCameraAsGrossOutlier)
@@ -75,9 +85,10 @@ TEST(CostFunctions, countALandmarkBehindTheCameraAsGrossOutlier)
   const LinearisedCamera camera = makeCamera();
   const Eigen::Vector3d behind = camera.T_camera_session.inverse() * Eigen::Vector3d(0.1, 0, -0.5);
   const geometry::Vector6d motion = geometry::Vector6d::Zero();
-  const double* parameters[2] = { motion.data(), behind.data() };
-  double residuals[2], by_motion[12], by_point[6];
-  double* jacobians[2] = { by_motion, by_point };
+  const double offset_px[2] = { 0, 0 };
+  const double* parameters[3] = { motion.data(), behind.data(), offset_px };
+  double residuals[2], by_motion[12], by_point[6], by_offset[4];
+  double* jacobians[3] = { by_motion, by_point, by_offset };
   ASSERT_TRUE(ReprojectionCost(&camera, { 0, 0 }, 1).Evaluate(parameters, residuals, jacobians));
   EXPECT_GT(residuals[0], 100);
   for (double value : by_motion)

@@ -3,8 +3,10 @@
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "object_modelling/refinement/bundle_adjustment.h"
+#include "pose_errors.h"
 #include "support/handheld_trajectory.h"
 #include "support/synthetic_scene.h"
 #include "support/transform_matchers.h"
@@ -46,7 +48,7 @@ protected:
 
 TEST_F(SurfaceLinks, MeasureRelativePosesFromWrongOnes)
 {
-  const std::vector<SurfaceLink> links = linkSurfaces(keyframes_, false, control_);
+  const std::vector<SurfaceLink> links = linkSurfaces(keyframes_, Eigen::Vector2d::Zero(), false, control_);
   ASSERT_GE(links.size(), keyframes_.size() - 1);
   for (const SurfaceLink& link : links)
   {
@@ -66,15 +68,68 @@ TEST_F(SurfaceLinks, HoldKeyframesTogetherThatShareNoLandmark)
     EXPECT_TRANSFORM_NEAR(result.T_session_camera[k], truth_[0].inverse() * truth_[k], 0.002, 0.003) << k;
 }
 
+/// Colour images shifted by `offset_px` against the depth images.
+std::vector<rgbd::Keyframe> withColorShifted(std::vector<rgbd::Keyframe> keyframes, const Eigen::Vector2d& offset_px)
+{
+  const cv::Matx23d shift(1, 0, offset_px.x(), 0, 1, offset_px.y());
+  for (rgbd::Keyframe& keyframe : keyframes)
+  {
+    cv::Mat shifted;
+    cv::warpAffine(keyframe.frame.gray, shifted, shift, keyframe.frame.gray.size(), cv::INTER_CUBIC,
+                   cv::BORDER_REPLICATE);
+    keyframe.frame.gray = shifted;
+  }
+  return keyframes;
+}
+
+TEST_F(SurfaceLinks, AlignShiftedImagesByTheKnownShift)
+{
+  const Eigen::Vector2d offset_px(2.5, -3);
+  const std::vector<SurfaceLink> links =
+      linkSurfaces(withColorShifted(keyframes_, offset_px), offset_px, false, control_);
+  ASSERT_GE(links.size(), keyframes_.size() - 1);
+  for (const SurfaceLink& link : links)
+    EXPECT_TRANSFORM_NEAR(link.T_a_b, truth_[link.a].inverse() * truth_[link.b], 0.002, 0.003)
+        << link.a << " " << link.b;
+}
+
+TEST_F(SurfaceLinks, ShiftOfTheColorImagesIsFound)
+{
+  for (const Eigen::Vector2d& offset_px : { Eigen::Vector2d(0, 0), Eigen::Vector2d(1.2, -0.8) })
+  {
+    const BundleAdjustmentResult result = adjustBundle(withColorShifted(keyframes_, offset_px), {}, control_);
+    ASSERT_TRUE(result.status.ok()) << result.status.message;
+    EXPECT_NEAR(result.color_offset_px.x(), offset_px.x(), 0.25);
+    EXPECT_NEAR(result.color_offset_px.y(), offset_px.y(), 0.25);
+    for (std::size_t k = 0; k < keyframes_.size(); ++k)
+      EXPECT_TRANSFORM_NEAR(result.T_session_camera[k], truth_[0].inverse() * truth_[k], 0.002, 0.003) << k;
+  }
+}
+
+TEST_F(SurfaceLinks, ShiftOfTheColorImagesCountsOnlyIfAskedFor)
+{
+  const std::vector<rgbd::Keyframe> shifted = withColorShifted(keyframes_, { 1.2, -0.8 });
+  std::vector<rgbd::Keyframe> truth = keyframes_;
+  for (std::size_t k = 0; k < truth.size(); ++k)
+    truth[k].T_session_camera = truth_[0].inverse() * truth_[k];
+  BundleAdjustmentOptions options;
+  const BundleAdjustmentResult with = adjustBundle(shifted, options, control_);
+  options.calibrate_color_offset = false;
+  const BundleAdjustmentResult without = adjustBundle(shifted, options, control_);
+  EXPECT_TRUE(without.color_offset_px.isZero());
+  EXPECT_LT(2 * largestError(with.T_session_camera, truth).translation_m,
+            largestError(without.T_session_camera, truth).translation_m);
+}
+
 TEST_F(SurfaceLinks, NoneWithoutSurfaces)
 {
   for (rgbd::Keyframe& keyframe : keyframes_)
     keyframe.frame.depth_m = cv::Mat(keyframe.frame.depth_m.size(), CV_32FC1, cv::Scalar(std::nan("")));
-  EXPECT_TRUE(linkSurfaces(keyframes_, false, control_).empty());
+  EXPECT_TRUE(linkSurfaces(keyframes_, Eigen::Vector2d::Zero(), false, control_).empty());
   for (rgbd::Keyframe& keyframe : keyframes_)
     keyframe.frame = {};
-  EXPECT_TRUE(linkSurfaces(keyframes_, false, control_).empty());
-  EXPECT_TRUE(linkSurfaces({}, false, control_).empty());
+  EXPECT_TRUE(linkSurfaces(keyframes_, Eigen::Vector2d::Zero(), false, control_).empty());
+  EXPECT_TRUE(linkSurfaces({}, Eigen::Vector2d::Zero(), false, control_).empty());
 }
 
 TEST_F(SurfaceLinks, NoneBetweenScenesThatDiffer)
@@ -84,7 +139,7 @@ TEST_F(SurfaceLinks, NoneBetweenScenesThatDiffer)
   other.table.seed = 99;
   keyframes_.resize(2);
   keyframes_[1].frame = test_support::renderFrame(other, test_support::vgaCamera().scaled(0.5), truth_[1], {}, 1.0);
-  EXPECT_TRUE(linkSurfaces(keyframes_, false, control_).empty());
+  EXPECT_TRUE(linkSurfaces(keyframes_, Eigen::Vector2d::Zero(), false, control_).empty());
 }
 
 }  // namespace object_modelling::refinement

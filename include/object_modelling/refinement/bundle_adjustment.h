@@ -15,8 +15,11 @@ struct BundleAdjustmentOptions
   int min_observations_per_landmark = 2;
   int max_iterations = 300;
   bool link_keyframes = true;  ///< match keyframes that the tracker did not link before adjusting
-  bool object_only = false;    ///< only observations on the object mask (turntable, object in motion)
-  int threads = 1;             ///< more than one: results are no longer equal bit for bit
+  /// Find by how much the colour images are shifted against the depth images, which are seldom registered to the pixel.
+  /// Where surfaces are steep a shift of a third of a pixel makes the whole model 0.1 % too small.
+  bool calibrate_color_offset = true;
+  bool object_only = false;  ///< only observations on the object mask (turntable, object in motion)
+  int threads = 1;           ///< more than one: results are no longer equal bit for bit
   std::uint64_t seed = 1;
   std::vector<std::string> violations() const;
 };
@@ -49,6 +52,9 @@ struct BundleAdjustmentResult
   std::vector<KeyframeLink> links;  ///< verified pairs that the tracker had not linked; loop closures among them
   std::vector<KeyframeLink> rejected_links;  ///< geometrically verified too, but in contradiction to the rest; not used
   std::vector<int> left_out;                 ///< ids of keyframes that nothing links to the others; poses unchanged
+  /// Pixel of a point in the colour image minus its pixel in the depth image, whose camera the poses are of. Zero
+  /// unless calibrated.
+  Eigen::Vector2d color_offset_px = Eigen::Vector2d::Zero();
   int iterations = 0;
   double initial_cost = 0, final_cost = 0;
 };

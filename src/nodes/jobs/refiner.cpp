@@ -43,6 +43,7 @@ object_modelling::SessionRefinement toMessage(const std::string& session_id,
   message.iterations = result.iterations;
   message.initial_cost = result.initial_cost;
   message.final_cost = result.final_cost;
+  message.color_offset_px = { result.color_offset_px.x(), result.color_offset_px.y() };
   for (const refinement::KeyframeResidual& residual : result.residuals)
     message.residuals.push_back(toMessage(residual));
   for (const refinement::KeyframeLink& link : result.links)

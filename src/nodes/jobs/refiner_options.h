@@ -31,6 +31,7 @@ void read(Reader& reader, RefinerOptions* options)
   reader.read("bundle_adjustment/min_observations_per_landmark", adjustment.min_observations_per_landmark);
   reader.read("bundle_adjustment/max_iterations", adjustment.max_iterations);
   reader.read("bundle_adjustment/link_keyframes", adjustment.link_keyframes);
+  reader.read("bundle_adjustment/calibrate_color_offset", adjustment.calibrate_color_offset);
   reader.read("bundle_adjustment/object_only", adjustment.object_only);
   reader.read("bundle_adjustment/threads", adjustment.threads);
   reader.read("bundle_adjustment/seed", adjustment.seed);
