@@ -75,9 +75,8 @@ double violationRatio(const rgbd::Frame& from, const rgbd::Frame& onto, const Ei
       const int x = static_cast<int>(std::lround(pixel.x())), y = static_cast<int>(std::lround(pixel.y()));
       const float z = onto.depthAt_m(x, y);
       const double tolerance_m = 4 * rgbd::axialSigma_m(p.z(), 0) + POSE_ALLOWANCE_RATIO * p.z();
-      if (object_only && !insideMask(onto, x, y) && !(z < p.z() - tolerance_m))
-        ++violations;
-      else if (z > p.z() + tolerance_m)
+      const bool off_object = object_only && !insideMask(onto, x, y) && !(z < p.z() - tolerance_m);
+      if (off_object || z > p.z() + tolerance_m)
         ++violations;
       else if (std::abs(z - p.z()) <= tolerance_m)
         ++agreements;

@@ -52,18 +52,18 @@ std::vector<source::StampedPose> correctTrajectory(const std::vector<source::Sta
   for (source::StampedPose& frame : corrected)
   {
     // The frame's pose relative to a keyframe is the live one; so is its place behind the refined keyframe.
-    const auto relativeTo = [&](std::size_t k) { return after[k] * (before[k].inverse() * frame.T_map_camera); };
+    const auto relative_to = [&](std::size_t k) { return after[k] * (before[k].inverse() * frame.T_map_camera); };
     const auto next = std::upper_bound(keyframe_stamps_s.begin(), keyframe_stamps_s.end(), frame.stamp_s);
     const std::size_t right = static_cast<std::size_t>(next - keyframe_stamps_s.begin());
     if (right == 0)
-      frame.T_map_camera = relativeTo(0);
+      frame.T_map_camera = relative_to(0);
     else if (right == keyframe_stamps_s.size())
-      frame.T_map_camera = relativeTo(right - 1);
+      frame.T_map_camera = relative_to(right - 1);
     else
     {
       const double begin_s = keyframe_stamps_s[right - 1], end_s = keyframe_stamps_s[right];
       frame.T_map_camera =
-          between(relativeTo(right - 1), relativeTo(right), (frame.stamp_s - begin_s) / (end_s - begin_s));
+          between(relative_to(right - 1), relative_to(right), (frame.stamp_s - begin_s) / (end_s - begin_s));
     }
   }
   return corrected;

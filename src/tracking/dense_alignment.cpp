@@ -182,7 +182,7 @@ DenseAlignment alignDense(const DenseReference& reference, const Eigen::Isometry
   const Eigen::Isometry3d T_camera_session_start = T_session_camera_start.inverse();
   Eigen::Isometry3d T_camera_session = T_camera_session_start;
   DenseResiduals residuals;
-  const auto withoutNoise = [&](int level)
+  const auto without_noise = [&](int level)
   {
     if (!alignment.term.equations.A.isZero())
       removeNoise(noiseOf(residuals, frame.levels()[level], options), &alignment.term.equations);
@@ -208,7 +208,7 @@ DenseAlignment alignDense(const DenseReference& reference, const Eigen::Isometry
       equations.b -= prior * off_start;
       const geometry::Vector6d step = equations.A.ldlt().solve(equations.b);
       if (!step.allFinite())
-        return withoutNoise(i);
+        return without_noise(i);
       const double coarse = level.step / static_cast<double>(frame.levels()[0].step);
       small_step = step.cwiseAbs().maxCoeff() < CONVERGED_STEP * coarse * coarse;
       // The term stands for the pose at which it was evaluated, so the last step is left to whoever uses the term.
@@ -217,7 +217,7 @@ DenseAlignment alignDense(const DenseReference& reference, const Eigen::Isometry
     }
     alignment.converged = small_step;
   }
-  return withoutNoise(options.finest_level);
+  return without_noise(options.finest_level);
 }
 
 }  // namespace object_modelling::tracking

@@ -57,7 +57,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::place(co
       placement = placeByAlignment(view, by_hand, times);
     if (placement.pose.valid && !placement.trusted && !placement.reference->trusted)
     {
-      const Placement by_trusted = placeByTrusted(view, placement.pose.T_session_camera, times);
+      Placement by_trusted = placeByTrusted(view, placement.pose.T_session_camera, times);
       if (by_trusted.pose.valid && by_trusted.trusted)
         return by_trusted;
     }

@@ -25,7 +25,7 @@ RobotMotion::RobotMotion(const CameraTrackerNodeOptions& options)
 {
   buffer_.setUsingDedicatedThread(true);
   if (!options_.frame_id.empty())
-    listener_.emplace(buffer_);
+    listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_);
 }
 
 bool RobotMotion::hangsBelowSession() const

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -37,7 +38,7 @@ private:
   RobotOptions options_;
   std::string session_frame_id_;
   tf2_ros::Buffer buffer_;
-  std::optional<tf2_ros::TransformListener> listener_;  ///< only if a robot is named: tf may be busy
+  std::unique_ptr<tf2_ros::TransformListener> listener_;  ///< only if a robot is named: tf may be busy
 };
 
 }  // namespace object_modelling::nodes

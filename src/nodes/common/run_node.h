@@ -13,7 +13,7 @@ namespace object_modelling::nodes
 /// What main of a node does: reads the parameters, makes the node and spins. Returns the exit code; what is wrong with
 /// the parameters is logged.
 template <typename Node, typename Options>
-int runNode(int argc, char** argv, const std::string& name, Options (*readOptions)(ros_bridge::ParamReader&))
+int runNode(int argc, char** argv, const std::string& name, Options (*read_options)(ros_bridge::ParamReader&))
 {
   ros::init(argc, argv, name);
   // Outside the try block: with its last handle a node shuts down, and nothing is logged any more.
@@ -23,7 +23,7 @@ int runNode(int argc, char** argv, const std::string& name, Options (*readOption
   {
     const ros_bridge::RosLogSink log_sink;
     ros_bridge::ParamReader reader(private_node);
-    const Options options = readOptions(reader);
+    const Options options = read_options(reader);
     reader.finish();
     const Node running(node, private_node, options);
     ROS_INFO("ready");
@@ -37,8 +37,8 @@ int runNode(int argc, char** argv, const std::string& name, Options (*readOption
   }
 }
 
-/// A `readOptions` for options with a function read(Reader&, Options*) beside them. Where that is a template, tests can
-/// list the keys.
+/// A `read_options` for options with a function read(Reader&, Options*) beside them. Where that is a template, tests
+/// can list the keys.
 template <typename Options>
 Options optionsFrom(ros_bridge::ParamReader& reader)
 {
