@@ -1,6 +1,6 @@
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/rotation.h>
-#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 #include "cost_functions.h"
 
@@ -13,12 +13,19 @@ using Matrix3 = Eigen::Matrix<T, 3, 3>;
 template <typename T>
 using Vector3 = Eigen::Matrix<T, 3, 1>;
 
+/// W with W^T W = information, which may be singular: directions that nothing is known of.
+geometry::Matrix6d rootOf(const geometry::Matrix6d& information)
+{
+  const Eigen::SelfAdjointEigenSolver<geometry::Matrix6d> eigen(information);
+  return eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
+}
+
 class SurfaceCost
 {
 public:
   SurfaceCost(const Eigen::Isometry3d& T_a_b_start, const Eigen::Isometry3d& T_a_b,
               const geometry::Matrix6d& information)
-      : T_a_b_start_(T_a_b_start), T_b_a_measured_(T_a_b.inverse()), weight_(information.llt().matrixU())
+      : T_a_b_start_(T_a_b_start), T_b_a_measured_(T_a_b.inverse()), weight_(rootOf(information))
   {
   }
 

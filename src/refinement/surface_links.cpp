@@ -85,9 +85,11 @@ std::optional<SurfaceLink> linkPair(const std::vector<rgbd::Keyframe>& keyframes
   // what neither knows.
   const geometry::Vector6d half =
       0.5 * geometry::vectorFromIsometry(backwards->T_a_b.inverse() * forwards->T_a_b.inverse());
-  const geometry::Matrix6d covariance = forwards->information.inverse() + half * half.transpose();
+  // The covariance grows by half half^T; in terms of the information, as that may leave directions free (Sherman and
+  // Morrison).
+  const geometry::Vector6d gain = forwards->information * half;
   return SurfaceLink{ a, b, geometry::normalised(geometry::isometryFromVector(half) * forwards->T_a_b),
-                      covariance.inverse() };
+                      forwards->information - gain * gain.transpose() / (1 + half.dot(gain)) };
 }
 }  // namespace
 

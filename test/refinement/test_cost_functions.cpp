@@ -1,5 +1,7 @@
 #include "cost_functions.h"
 
+#include <memory>
+
 #include <ceres/ceres.h>
 #include <ceres/gradient_checker.h>
 #include <gtest/gtest.h>
@@ -78,6 +80,25 @@ TEST(CostFunctions, countInSigmas)
   EXPECT_NEAR(residuals[1], 0, 1e-9);
   ASSERT_TRUE(depth_cost.Evaluate(parameters, residuals, nullptr));
   EXPECT_NEAR(residuals[0], (0.8 - (0.803 - 1 * 0.002 - 2 * -0.001)) / 0.001, 1e-9);
+}
+
+TEST(CostFunctions, surfacesMayLeaveADirectionFree)
+{
+  const LinearisedCamera camera = makeCamera();
+  geometry::Matrix6d information = 1e4 * geometry::Matrix6d::Identity();
+  const geometry::Vector6d free = (geometry::Vector6d() << 1, 2, 0, 0, 0, 0).finished().normalized();
+  information -= 1e4 * free * free.transpose();
+  const std::unique_ptr<ceres::CostFunction> cost(
+      surfaceCost(camera, camera, Eigen::Isometry3d::Identity(), information));
+  const geometry::Vector6d none = geometry::Vector6d::Zero(), along = 0.01 * free;
+  const geometry::Vector6d across = (geometry::Vector6d() << -0.02, 0.01, 0, 0, 0, 0).finished();
+  geometry::Vector6d residuals;
+  const double* slid[2] = { along.data(), none.data() };
+  ASSERT_TRUE(cost->Evaluate(slid, residuals.data(), nullptr));
+  EXPECT_LT(residuals.norm(), 1e-6);
+  const double* off[2] = { across.data(), none.data() };
+  ASSERT_TRUE(cost->Evaluate(off, residuals.data(), nullptr));
+  EXPECT_NEAR(residuals.norm(), 100 * across.norm(), 1e-6);
 }
 
 TEST(CostFunctions, countALandmarkBehindTheCameraAsGrossOutlier)
