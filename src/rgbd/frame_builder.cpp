@@ -133,6 +133,7 @@ base::Result<Frame> FrameBuilder::build(const RawFrame& raw)
 
   Frame& frame = result.value;
   frame.stamp_s = raw.stamp_s;
+  frame.depth_delay_s = raw.depth_stamp_s - raw.stamp_s;
   frame.camera = raw.camera;
   frame.camera.distortion.clear();
   frame.depth_m = depthInMetres(images.depth, raw.depth_unit_m);

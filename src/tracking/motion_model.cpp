@@ -31,9 +31,14 @@ std::optional<Eigen::Isometry3d> MotionModel::predict(double stamp_s) const
   if (!T_session_camera_)
     return std::nullopt;
   const double ahead_s = std::min(stamp_s - stamp_s_, std::max(interval_s_, MAX_EXTRAPOLATION_S));
+  return *T_session_camera_ * motion(ahead_s);
+}
+
+Eigen::Isometry3d MotionModel::motion(double duration_s) const
+{
   geometry::Vector6d motion;
-  motion << velocity_m_per_s_ * ahead_s, angular_velocity_rad_per_s_ * ahead_s;
-  return *T_session_camera_ * geometry::isometryFromVector(motion);
+  motion << velocity_m_per_s_ * duration_s, angular_velocity_rad_per_s_ * duration_s;
+  return geometry::isometryFromVector(motion);
 }
 
 }  // namespace object_modelling::tracking

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "depth_sampling.h"
 #include "keyframe_maker.h"
 #include "object_modelling/base/status.h"
+#include "object_modelling/rgbd/depth_in_time.h"
 #include "object_modelling/rgbd/surface_fit.h"
 #include "stage_timer.h"
 
@@ -20,6 +22,7 @@ constexpr int MIN_EDGE_POINTS = 100;             // ... if there is something to
 constexpr double MAX_KEYFRAME_BLUR_RATIO = 0.5;
 constexpr double MAX_KEYFRAME_ANGULAR_SPEED_RAD_PER_S = 2.5;
 constexpr int MIN_FRAMES_BETWEEN_KEYFRAMES = 3;
+constexpr double MIN_DEPTH_SHIFT_PX = 0.25;      // less is no more than the registration is off
 constexpr double SHARPNESS_DECAY_RATIO = 0.998;  // per frame, so that a plainer side of the scene becomes the measure
 }  // namespace
 
@@ -182,6 +185,8 @@ void CameraTracker::Implementation::addKeyframe(const View& view, const Eigen::I
   made.map.trusted = trusted;
   const MapKeyframe& added = map_.add(std::move(made.map));
   result->keyframe = std::move(made.keyframe);
+  // The map keeps its depth as it came: that of the frames to be placed there lags alike.
+  synchroniseDepth(&*result->keyframe);
   frames_since_keyframe_ = 0;
   last_inliers_.clear();
   for (const Sighting& sighting : added.sightings)
@@ -189,6 +194,21 @@ void CameraTracker::Implementation::addKeyframe(const View& view, const Eigen::I
         { sighting.landmark_id,
           { T_session_camera * sighting.p_keyframe, sighting.pixel.cast<double>(), sighting.p_keyframe.z() },
           trusted });
+}
+
+void CameraTracker::Implementation::synchroniseDepth(rgbd::Keyframe* keyframe) const
+{
+  rgbd::Frame& frame = keyframe->frame;
+  const Eigen::Isometry3d T_color_depth = motion_.motion(frame.depth_delay_s);
+  frame.depth_delay_s = 0;
+  // Of a point 1 m away.
+  const double shift_px =
+      frame.camera.fx * (geometry::rotationAngle_rad(T_color_depth) + T_color_depth.translation().norm());
+  if (shift_px < MIN_DEPTH_SHIFT_PX)
+    return;
+  frame.depth_m = rgbd::moveDepth(frame.depth_m, frame.camera, T_color_depth);
+  for (rgbd::Observation& observation : keyframe->observations)
+    observation.depth_m = sampleDepth_m(frame.depth_m, observation.pixel.x(), observation.pixel.y());
 }
 
 double CameraTracker::Implementation::updateBlur(const rgbd::Frame& frame, const ImagePyramid& pyramid)

@@ -59,6 +59,8 @@ private:
 
   /// track() for a frame whose object mask, if any, counts.
   TrackingResult trackUsable(const rgbd::Frame& frame);
+  /// Moves the depth to where the camera was when it took the colour image.
+  void synchroniseDepth(rgbd::Keyframe* keyframe) const;
   std::string refuse(const rgbd::Frame& frame) const;
   Placement place(const View& view, StageTimes* times) const;
 

@@ -41,6 +41,7 @@ TEST(FrameBuilder, RectifiedColourIsSharedNotCopied)
   const Frame& frame = result.value;
   EXPECT_EQ(frame.color_bgr.data, raw.color.data);
   EXPECT_EQ(frame.stamp_s, 1000);
+  EXPECT_NEAR(frame.depth_delay_s, 0.005, 1e-9);
   EXPECT_EQ(frame.gray.at<std::uint8_t>(10, 10), 120);  // 0.114 B + 0.587 G + 0.299 R
   EXPECT_FLOAT_EQ(frame.depthAt_m(5, 7), 1.5f);
   EXPECT_TRUE(frame.object_mask.empty());

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -35,6 +36,48 @@ TEST(CameraTracker, FollowsAWalkWithinMillimetres)
       EXPECT_GT(result.covariance.diagonal().minCoeff(), 0);
     }
   }
+}
+
+TEST(CameraTracker, KeyframesHaveTheirDepthFromTheTimeOfTheirColor)
+{
+  // Back and up while turning: the depth of every pixel changes from frame to frame.
+  const auto T_world_camera = [](double time_s) {
+    return test_support::lookAt({ 0.5 + 0.3 * time_s, -0.1 + 0.3 * time_s, 0.5 + 0.2 * time_s }, { 0, 0, 0.05 });
+  };
+  const auto frame_at = [&](double time_s)
+  {
+    return test_support::renderFrame(test_support::boxOnTable(), TrackingScene::camera(), T_world_camera(time_s), {},
+                                     time_s);
+  };
+  const auto median_mm = [](const cv::Mat& a_m, const cv::Mat& b_m)
+  {
+    std::vector<float> differences_mm;
+    for (int i = 0; i < static_cast<int>(a_m.total()); ++i)
+      if (const float difference = std::abs(a_m.at<float>(i) - b_m.at<float>(i)); std::isfinite(difference))
+        differences_mm.push_back(1e3F * difference);
+    const auto middle = differences_mm.begin() + static_cast<std::ptrdiff_t>(differences_mm.size() / 2);
+    std::nth_element(differences_mm.begin(), middle, differences_mm.end());
+    return *middle;
+  };
+  constexpr double DELAY_S = 0.015;
+  CameraTracker tracker;
+  int checked = 0;
+  for (int i = 0; i < 30; ++i)
+  {
+    const rgbd::Frame truth = frame_at(i / 30.0);
+    rgbd::Frame frame = truth;
+    frame.depth_m = frame_at(i / 30.0 + DELAY_S).depth_m;
+    frame.depth_delay_s = DELAY_S;
+    const TrackingResult result = tracker.track(frame);
+    ASSERT_TRUE(result.tracked()) << i << ": " << result.reason;
+    if (!result.keyframe || i == 0)
+      continue;
+    EXPECT_EQ(result.keyframe->frame.depth_delay_s, 0);
+    EXPECT_GT(median_mm(frame.depth_m, truth.depth_m), 4);
+    EXPECT_LT(median_mm(result.keyframe->frame.depth_m, truth.depth_m), 0.4);
+    ++checked;
+  }
+  EXPECT_GE(checked, 2);
 }
 
 TEST(CameraTracker, KeyframesShareLandmarksWhoseSightingsAreTrue)

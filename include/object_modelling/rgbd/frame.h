@@ -12,6 +12,7 @@ namespace object_modelling::rgbd
 struct Frame
 {
   double stamp_s = 0;              ///< time of the colour image
+  double depth_delay_s = 0;        ///< time of the depth image minus that of the colour image
   cv::Mat color_bgr;               ///< CV_8UC3
   cv::Mat gray;                    ///< CV_8UC1, of color_bgr
   cv::Mat depth_m;                 ///< CV_32FC1, along the optical axis; NaN where missing

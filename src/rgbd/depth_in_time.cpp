@@ -1,0 +1,61 @@
+#include "object_modelling/rgbd/depth_in_time.h"
+
+#include <cmath>
+#include <limits>
+
+namespace object_modelling::rgbd
+{
+namespace
+{
+constexpr float MAX_STEP_RATIO = 0.02F;  // a mean of depths further apart is a place on neither surface
+
+/// Between the four pixels around, or the nearest of them if they are not of one surface. (x, y) inside the image.
+float sample(const float* depth_m, std::ptrdiff_t step, float x, float y)
+{
+  const int u = static_cast<int>(x), v = static_cast<int>(y);
+  const float a = x - static_cast<float>(u), b = y - static_cast<float>(v);
+  const float* upper = depth_m + v * step + u;
+  const float* lower = upper + step;
+  const float mean = (1 - b) * ((1 - a) * upper[0] + a * upper[1]) + b * ((1 - a) * lower[0] + a * lower[1]);
+  const float nearest = (b < 0.5F ? upper : lower)[a < 0.5F ? 0 : 1];
+  // False where one is missing, too.
+  return std::abs(mean - nearest) <= MAX_STEP_RATIO * nearest ? mean : nearest;
+}
+}  // namespace
+
+cv::Mat moveDepth(const cv::Mat& depth_m, const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_color_depth)
+{
+  const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
+  const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
+  const Eigen::Isometry3f T = T_color_depth.inverse().cast<float>();
+  const Eigen::Matrix3f R = T.linear();
+  const Eigen::Vector3f t = T.translation(), z_axis = R.col(2);
+  const Eigen::ArrayXf ray_x =
+      (Eigen::ArrayXf::LinSpaced(depth_m.cols, 0, static_cast<float>(depth_m.cols - 1)) - cx) / fx;
+  Eigen::ArrayXf inverse_z, scale, x, y, back_x, back_y;
+  const auto last_x = static_cast<float>(depth_m.cols - 1), last_y = static_cast<float>(depth_m.rows - 1);
+  const auto step = static_cast<std::ptrdiff_t>(depth_m.step1());
+  cv::Mat moved(depth_m.size(), CV_32FC1);
+  for (int v = 0; v < depth_m.rows; ++v)
+  {
+    // Where each pixel's surface is in the depth image. The surface that was at the pixel when the depth was taken
+    // stands for the one that is there now: they differ at steps alone.
+    const Eigen::Vector3f row = R.col(1) * ((static_cast<float>(v) - cy) / fy) + R.col(2);
+    inverse_z = Eigen::Map<const Eigen::ArrayXf>(depth_m.ptr<float>(v), depth_m.cols).inverse();
+    scale = (R(2, 0) * ray_x + (row[2] + t[2] * inverse_z)).inverse();
+    x = fx * scale * (R(0, 0) * ray_x + (row[0] + t[0] * inverse_z)) + cx;
+    y = fy * scale * (R(1, 0) * ray_x + (row[1] + t[1] * inverse_z)) + cy;
+    // z after the motion = scale_z z - t_z, where z is the depth there.
+    back_x = z_axis[0] / fx * (x - cx) + z_axis[1] / fy * (y - cy) + z_axis[2];
+    auto* out = moved.ptr<float>(v);
+    for (int u = 0; u < depth_m.cols; ++u)
+    {
+      const bool inside = x[u] >= 0 && y[u] >= 0 && x[u] < last_x && y[u] < last_y;  // false for NaN
+      out[u] = inside ? back_x[u] * sample(depth_m.ptr<float>(), step, x[u], y[u]) - z_axis.dot(t)
+                      : std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  return moved;
+}
+
+}  // namespace object_modelling::rgbd
