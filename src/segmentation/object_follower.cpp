@@ -110,16 +110,21 @@ void ObjectFollower::reset()
 FollowedObject ObjectFollower::follow(const rgbd::Frame& frame)
 {
   FollowedObject followed;
-  if (!frame.object_mask.empty())
-  {
-    last_mask_ = followed.mask = frame.object_mask;
-    support_.reset();
-    return followed;
-  }
   if (last_mask_.size() != frame.depth_m.size())
     reset();
   followed.mask = lookNear(frame);
-  if (followed.mask.empty())
+  if (!frame.object_mask.empty())
+  {
+    const bool supported = !followed.mask.empty();
+    last_mask_ = followed.mask = frame.object_mask;
+    if (!supported)
+    {
+      // So it is where every frame brings its mask, and nothing has to be found.
+      support_.reset();
+      return followed;
+    }
+  }
+  else if (followed.mask.empty())
   {
     const base::Result<cv::Mat> found = lookEverywhere(frame);
     followed.status = found.status;

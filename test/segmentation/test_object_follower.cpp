@@ -86,6 +86,26 @@ TEST(ObjectFollower, KeepsTheMasksThatAFrameBrings)
   EXPECT_EQ(cv::countNonZero(found.moving() != frame.object_mask), 0);
 }
 
+TEST(ObjectFollower, TurntableGoesOnToCountWhereSomeFramesBringMasks)
+{
+  ObjectFollower follower;
+  for (int i = 0; i < 9; ++i)
+  {
+    const test_support::SceneImage image = turntableView(0.1 * i, i + 1);
+    const bool with_mask = i % 3 == 0;
+    const FollowedObject found = follower.follow(with_mask ? image.frame : unmasked(image.frame));
+    ASSERT_TRUE(found.status.ok()) << i << ": " << found.status.message;
+    if (with_mask)
+    {
+      EXPECT_EQ(cv::countNonZero(found.mask != image.frame.object_mask), 0) << i;
+    }
+    if (i == 0)
+      continue;
+    ASSERT_FALSE(found.turntable.empty()) << i;
+    EXPECT_GT(shareWithin(image.instances == 2, found.turntable), 0.7) << i;
+  }
+}
+
 TEST(ObjectFollower, StaysWithTheObjectItHas)
 {
   const test_support::SceneImage both = test_support::renderScene(twoBoxes(), smallCamera(), pose());

@@ -36,7 +36,7 @@ cv::Mat findTurntable(const rgbd::Frame& frame, double max_size_m = ObjectFollow
 
 /// Finds one object that moves with respect to the camera in each frame of a stream, without known poses: chosen
 /// automatically in the first frame, then what stands on the support and overlaps the last mask most. A mask that a
-/// frame brings is kept. Not thread safe.
+/// frame brings is kept; where others bring none, what turns with the object goes on to count. Not thread safe.
 class ObjectFollower
 {
 public:
