@@ -9,8 +9,8 @@ namespace object_modelling::segmentation
 {
 const NoiseTable& NoiseTable::instance()
 {
-  static const NoiseTable table;
-  return table;
+  static const NoiseTable TABLE;
+  return TABLE;
 }
 
 NoiseTable::NoiseTable() : sigma_(ROWS * COLUMNS)
