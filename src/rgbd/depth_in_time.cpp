@@ -32,7 +32,8 @@ cv::Mat moveDepth(const cv::Mat& depth_m, const geometry::PinholeCamera& camera,
   const Eigen::Vector3f t = T.translation(), z_axis = R.col(2);
   const Eigen::ArrayXf ray_x =
       (Eigen::ArrayXf::LinSpaced(depth_m.cols, 0, static_cast<float>(depth_m.cols - 1)) - cx) / fx;
-  Eigen::ArrayXf inverse_z, scale, x, y, back_x, back_y;
+  const float t_z = z_axis.dot(t);
+  Eigen::ArrayXf inverse_z, scale, x, y, scale_z;
   const auto last_x = static_cast<float>(depth_m.cols - 1), last_y = static_cast<float>(depth_m.rows - 1);
   const auto step = static_cast<std::ptrdiff_t>(depth_m.step1());
   cv::Mat moved(depth_m.size(), CV_32FC1);
@@ -46,12 +47,12 @@ cv::Mat moveDepth(const cv::Mat& depth_m, const geometry::PinholeCamera& camera,
     x = fx * scale * (R(0, 0) * ray_x + (row[0] + t[0] * inverse_z)) + cx;
     y = fy * scale * (R(1, 0) * ray_x + (row[1] + t[1] * inverse_z)) + cy;
     // z after the motion = scale_z z - t_z, where z is the depth there.
-    back_x = z_axis[0] / fx * (x - cx) + z_axis[1] / fy * (y - cy) + z_axis[2];
+    scale_z = z_axis[0] / fx * (x - cx) + z_axis[1] / fy * (y - cy) + z_axis[2];
     auto* out = moved.ptr<float>(v);
     for (int u = 0; u < depth_m.cols; ++u)
     {
       const bool inside = x[u] >= 0 && y[u] >= 0 && x[u] < last_x && y[u] < last_y;  // false for NaN
-      out[u] = inside ? back_x[u] * sample(depth_m.ptr<float>(), step, x[u], y[u]) - z_axis.dot(t)
+      out[u] = inside ? scale_z[u] * sample(depth_m.ptr<float>(), step, x[u], y[u]) - t_z
                       : std::numeric_limits<float>::quiet_NaN();
     }
   }

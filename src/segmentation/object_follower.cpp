@@ -112,6 +112,12 @@ FollowedObject ObjectFollower::follow(const rgbd::Frame& frame)
   FollowedObject followed;
   if (last_mask_.size() != frame.depth_m.size())
     reset();
+  if (!frame.object_mask.empty() && cv::countNonZero(frame.object_mask) == 0)
+  {
+    // Out of sight; where it was last is still where to look for it.
+    followed.mask = frame.object_mask;
+    return followed;
+  }
   followed.mask = lookNear(frame);
   if (!frame.object_mask.empty())
   {

@@ -106,6 +106,21 @@ TEST(ObjectFollower, TurntableGoesOnToCountWhereSomeFramesBringMasks)
   }
 }
 
+TEST(ObjectFollower, MaskWithoutAPixelIsNoObjectInThatFrame)
+{
+  ObjectFollower follower;
+  ASSERT_TRUE(follower.follow(unmasked(turntableView(0, 1).frame)).status.ok());
+  rgbd::Frame frame = turntableView(0.1, 2).frame;
+  frame.object_mask = cv::Mat::zeros(frame.depth_m.size(), CV_8UC1);
+  const FollowedObject none = follower.follow(frame);
+  EXPECT_TRUE(none.status.ok());
+  EXPECT_EQ(cv::countNonZero(none.moving()), 0);
+  const test_support::SceneImage after = turntableView(0.2, 3);
+  const FollowedObject found = follower.follow(unmasked(after.frame));
+  ASSERT_TRUE(found.status.ok()) << found.status.message;
+  EXPECT_GT(overlap(found.mask, after.instances == 1, after.frame.depth_m), 0.85);
+}
+
 TEST(ObjectFollower, StaysWithTheObjectItHas)
 {
   const test_support::SceneImage both = test_support::renderScene(twoBoxes(), smallCamera(), pose());
