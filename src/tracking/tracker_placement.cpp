@@ -93,15 +93,23 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByA
   bool chained = false;
   if (!convincing(aligned.term))
   {
-    // The frame before shows most of the same, and a hand that turned back is nearer to where it was.
-    const DenseReference last(last_dense_);
-    for (const Eigen::Isometry3d& T_start : { T_session_predicted, *motion_.last() })
+    // The frame before shows most of the same, and a hand that turned back is nearer to where it was. Where it became
+    // the reference, it was tried from the prediction already.
+    const bool last_is_reference = reference.T_session_camera.matrix() == motion_.last()->matrix();
+    std::optional<DenseReference> made;
+    if (!last_is_reference)
+      made.emplace(last_dense_);
+    const DenseReference& last = made ? *made : reference.dense();
+    std::vector<Eigen::Isometry3d> starts = { *motion_.last() };
+    if (!last_is_reference)
+      starts.insert(starts.begin(), T_session_predicted);
+    for (const Eigen::Isometry3d& T_start : starts)
     {
       const DenseAlignment other = alignDense(last, *motion_.last(), view.dense, T_start, prediction.equations.A);
       if (quality(other.term) <= quality(aligned.term))
         continue;
       aligned = other;
-      chained = true;
+      chained = !last_is_reference;
     }
   }
   timer.stop();
