@@ -5,6 +5,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "object_modelling/rgbd/depth_units.h"
+
 namespace object_modelling::tracking
 {
 namespace
@@ -12,6 +14,7 @@ namespace
 constexpr double MAX_REFERENCE_ANGLE_RAD = 1.0;  // a view turned further shares no patch that could be recognised
 constexpr double DISTRUST_RAD = 0.35;            // as good as a trusted view that much further round
 const cv::Size THUMBNAIL_SIZE(40, 30);
+constexpr double COMPACT_DEPTH_UNIT_M = 0.00025;  // sensors tell no finer; reaches 16 m
 
 double viewAngle_rad(const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b)
 {
@@ -28,15 +31,34 @@ const WideBaselineFeatures& MapKeyframe::features(FeatureKind kind) const
 {
   std::optional<WideBaselineFeatures>& features = features_[static_cast<std::size_t>(kind)];
   if (!features)
-    features = detectWideBaselineFeatures(frame, kind);
+    features = detectWideBaselineFeatures(wholeFrame(), kind);
   return *features;
 }
 
 const DenseReference& MapKeyframe::dense() const
 {
   if (!dense_)
-    dense_.emplace(DensePyramid(frame, pyramid));
+    dense_.emplace(DensePyramid(wholeFrame(), pyramid));
   return *dense_;
+}
+
+void MapKeyframe::compact()
+{
+  frame.color_bgr.release();
+  if (!pyramid.empty() && pyramid.front().size() == frame.gray.size())
+    frame.gray = pyramid.front();
+  if (frame.depth_m.empty())
+    return;
+  compact_depth_ = rgbd::depthAs16Bit(frame.depth_m, COMPACT_DEPTH_UNIT_M);
+  frame.depth_m.release();
+}
+
+rgbd::Frame MapKeyframe::wholeFrame() const
+{
+  rgbd::Frame whole = frame;
+  if (!compact_depth_.empty())
+    whole.depth_m = rgbd::depthInMetres(compact_depth_, COMPACT_DEPTH_UNIT_M);
+  return whole;
 }
 
 cv::Mat makeThumbnail(const cv::Mat& gray)
@@ -59,7 +81,7 @@ void KeyframeMap::clear()
 
 const MapKeyframe& KeyframeMap::add(MapKeyframe keyframe)
 {
-  keyframe.frame.color_bgr.release();
+  keyframe.compact();
   keyframe.thumbnail = makeThumbnail(keyframe.frame.gray);
   keyframes_.push_back(std::make_unique<MapKeyframe>(std::move(keyframe)));
   return *keyframes_.back();

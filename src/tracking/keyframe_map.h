@@ -37,7 +37,7 @@ struct MapKeyframe
   bool trusted = true;
   std::vector<cv::Mat> pyramid;  ///< grey, full resolution first
   std::vector<Sighting> sightings;
-  rgbd::Frame frame;  ///< without colour
+  rgbd::Frame frame;  ///< without colour, and without depth once it is in the map: wholeFrame() has it
   cv::Mat thumbnail;  ///< CV_32FC1, small, zero mean, unit norm: finds similar views quickly
   /// Descriptors, made when first asked for: most keyframes are never relocalised against.
   const WideBaselineFeatures& features(FeatureKind kind) const;
@@ -45,7 +45,12 @@ struct MapKeyframe
   /// Points for dense alignment, made when first asked for.
   const DenseReference& dense() const;
 
+  /// Halves what a keyframe keeps in memory: depth goes to 16 bits, the full-resolution image is shared.
+  void compact();
+  rgbd::Frame wholeFrame() const;
+
 private:
+  cv::Mat compact_depth_;                                                // CV_16UC1
   mutable std::array<std::optional<WideBaselineFeatures>, 2> features_;  // by kind
   mutable std::optional<DenseReference> dense_;
 };

@@ -69,4 +69,20 @@ TEST(KeyframeMap, SimilarImagesAreThoseOfTheSameView)
       test_support::renderFrame(test_support::boxOnTable(), test_support::vgaCamera(), orbit(3 * M_PI / 4 + 0.05));
   EXPECT_EQ(map.similarImages(makeThumbnail(frame.gray), 1)[0]->id, 3);
 }
+TEST(KeyframeMap, KeepsDepthInHalfTheMemoryAndGivesItBack)
+{
+  MapKeyframe made = keyframe(0, orbit(0));
+  const cv::Mat depth_m = made.frame.depth_m.clone();
+  made.pyramid = { made.frame.gray.clone() };
+  KeyframeMap map;
+  const MapKeyframe& added = map.add(std::move(made));
+  EXPECT_TRUE(added.frame.color_bgr.empty());
+  EXPECT_TRUE(added.frame.depth_m.empty());
+  EXPECT_EQ(added.frame.gray.data, added.pyramid.front().data);
+  const cv::Mat given_m = added.wholeFrame().depth_m;
+  const cv::Mat known = depth_m == depth_m;
+  EXPECT_EQ(cv::countNonZero(known != (given_m == given_m)), 0);
+  EXPECT_LE(cv::norm(given_m, depth_m, cv::NORM_INF, known), 0.00013);
+}
+
 }  // namespace object_modelling::tracking
