@@ -111,7 +111,7 @@ BundleAdjustmentResult reportOf(const std::vector<rgbd::Keyframe>& keyframes, co
     return result;
   }
   result.iterations = adjustment.iterations;
-  BundleState before{ adjustment.T_session_camera_start, adjustment.state.map, {}, Eigen::Vector2d::Zero() };
+  BundleState before{ adjustment.T_session_camera_start, adjustment.state.map, {}, Eigen::Vector2d::Zero(), {} };
   replaceLandmarks(keyframes, adjustment.T_session_camera_start, &before.map);
   result.initial_cost = robustCost(keyframes, options.loss_width_sigmas, before);
   result.final_cost = robustCost(keyframes, options.loss_width_sigmas, adjustment.state);
@@ -124,6 +124,7 @@ BundleAdjustmentResult reportOf(const std::vector<rgbd::Keyframe>& keyframes, co
   }
   result.T_session_camera = adjustment.state.T_session_camera;
   result.color_offset_px = adjustment.state.color_offset_px;
+  result.sensor = adjustment.state.sensor;
   reportResiduals(keyframes, before, adjustment.state, &result);
   reportLinks(keyframes, adjustment, &result);
   const std::vector<geometry::Matrix6d> covariance =

@@ -91,7 +91,23 @@ Adjustment BundleAdjuster::run()
   return adjustment;
 }
 
-void BundleAdjuster::findLinks(Adjustment* adjustment)
+rgbd::SensorCorrection BundleAdjuster::calibrate()
+{
+  Adjustment adjustment;
+  adjustment.T_session_camera_start = posesOf(keyframes_);
+  if (options_.link_keyframes && keyframes_.size() > 1)
+    linkLandmarks(&adjustment);
+  adjustment.active.assign(adjustment.links.size(), true);
+  for (int round = 0; round < MAX_ROUNDS; ++round)
+  {
+    adjust(&adjustment);
+    if (!adjustment.summary.usable || !dropContradicting(&adjustment))
+      break;
+  }
+  return adjustment.summary.usable ? adjustment.state.sensor : rgbd::SensorCorrection{};
+}
+
+void BundleAdjuster::linkLandmarks(Adjustment* adjustment)
 {
   const Eigen::MatrixXi shared = sharedLandmarks(tracked_, keyframes_.size());
   // An object fills a small part of the view and turns in large steps: there no number of tracked landmarks is
@@ -100,6 +116,11 @@ void BundleAdjuster::findLinks(Adjustment* adjustment)
   adjustment->links = linkKeyframes(keyframes_, shared, enough_shared, linkerOptions(options_), *control_);
   for (const VerifiedLink& link : adjustment->links)
     link_edges_.push_back(edgeOfLink(link, keyframes_));
+}
+
+void BundleAdjuster::findLinks(Adjustment* adjustment)
+{
+  linkLandmarks(adjustment);
   // Surfaces are aligned by their grey levels too, and would hold on to the offset that they were aligned with.
   if (options_.calibrate_color_offset)
   {
@@ -198,6 +219,9 @@ void BundleAdjuster::solve(int fixed, Adjustment* adjustment) const
   solver.loss_width_sigmas = options_.loss_width_sigmas;
   solver.max_iterations = options_.max_iterations;
   solver.calibrate_color_offset = options_.calibrate_color_offset;
+  solver.calibrate_intrinsics = options_.calibrate_intrinsics;
+  solver.calibrate_depth_ratio = options_.calibrate_depth_ratio;
+  solver.calibrate_depth_offset = options_.calibrate_depth_offset;
   fitDepths(keyframes_, &state.map);
   adjustment->summary = solveBundle(keyframes_, fixed, solver, *control_, &state);
   adjustment->iterations += adjustment->summary.iterations;

@@ -32,8 +32,11 @@ public:
                  base::JobControl* control);
 
   Adjustment run();
+  /// What the sensor is off by, from landmarks alone; identity where there are too few.
+  rgbd::SensorCorrection calibrate();
 
 private:
+  void linkLandmarks(Adjustment* adjustment);
   void findLinks(Adjustment* adjustment);
   /// The landmarks of tracker and active links; chooses the members.
   std::vector<SightGroup> groupsOf(Adjustment* adjustment) const;

@@ -22,7 +22,21 @@ BundleAdjustmentResult adjustBundle(const std::vector<rgbd::Keyframe>& keyframes
 {
   base::checked(options);
   control.checkCancelled();
-  return reportOf(keyframes, options, BundleAdjuster(keyframes, options, &control).run());
+  if (!options.calibratesSensor())
+    return reportOf(keyframes, options, BundleAdjuster(keyframes, options, &control).run());
+  const rgbd::SensorCorrection sensor = BundleAdjuster(keyframes, options, &control).calibrate();
+  std::vector<rgbd::Keyframe> right = keyframes;
+  for (rgbd::Keyframe& keyframe : right)
+  {
+    keyframe.frame = rgbd::corrected(keyframe.frame, sensor);
+    for (rgbd::Observation& observation : keyframe.observations)
+      observation.depth_m = static_cast<float>(sensor.depth_ratio * observation.depth_m + sensor.depth_offset_m);
+  }
+  BundleAdjustmentOptions rest = options;
+  rest.calibrate_intrinsics = rest.calibrate_depth_ratio = rest.calibrate_depth_offset = false;
+  BundleAdjustmentResult result = reportOf(right, rest, BundleAdjuster(right, rest, &control).run());
+  result.sensor = sensor;
+  return result;
 }
 
 }  // namespace object_modelling::refinement

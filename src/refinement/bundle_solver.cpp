@@ -7,18 +7,17 @@
 #include <memory>
 
 #include <ceres/ceres.h>
-#include <ceres/normal_prior.h>
 
 #include "cost_functions.h"
 #include "object_modelling/geometry/transform.h"
 #include "object_modelling/rgbd/sensor_noise_model.h"
+#include "sensor_blocks.h"
 
 namespace object_modelling::refinement
 {
 namespace
 {
-constexpr double SURFACE_LOSS_FACTOR = 2;    // six residuals at once are larger than one
-constexpr double COLOR_OFFSET_SIGMA_PX = 1;  // as they come from the factory
+constexpr double SURFACE_LOSS_FACTOR = 2;  // six residuals at once are larger than one
 
 /// Reports progress, and stops the solver when the callback or a cancellation throws; the exception waits until the
 /// solver has returned.
@@ -80,7 +79,7 @@ BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, in
     cameras.emplace_back(keyframes[k].frame.camera, state->T_session_camera[k]);
   std::vector<geometry::Vector6d> motions(keyframes.size(), geometry::Vector6d::Zero());
   std::vector<Eigen::Vector3d> landmarks = state->map.landmarks;
-  Eigen::Vector2d color_offset_px = state->color_offset_px;
+  SensorBlocks sensor(*state);
 
   const std::unique_ptr<ceres::LossFunction> loss = std::make_unique<ceres::CauchyLoss>(options.loss_width_sigmas);
   ceres::Problem::Options problem_options;
@@ -95,12 +94,12 @@ BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, in
     double* landmark = landmarks[sight.landmark].data();
     const LinearisedCamera* camera = &cameras[sight.keyframe];
     problem.AddResidualBlock(new ReprojectionCost(camera, sight.pixel, sight.sigma_px), loss.get(), motion, landmark,
-                             color_offset_px.data());
+                             sensor.color_offset_px.data(), sensor.intrinsics.data());
     if (sight.depth_m > 0)
     {
       problem.AddResidualBlock(
           new DepthCost(camera, sight.depth_m, sight.depth_slope_m_px, rgbd::axialSigma_m(sight.depth_m, 0)),
-          loss.get(), motion, landmark, color_offset_px.data());
+          loss.get(), motion, landmark, sensor.color_offset_px.data(), &sensor.depth_growth, &sensor.depth_offset_m);
     }
     solver_options.linear_solver_ordering->AddElementToGroup(landmark, 0);
     solver_options.linear_solver_ordering->AddElementToGroup(motion, 1);
@@ -120,16 +119,7 @@ BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, in
   if (fixed_keyframe >= 0 && seen[fixed_keyframe])
     problem.SetParameterBlockConstant(motions[fixed_keyframe].data());
 
-  if (!state->map.sights.empty())
-  {
-    // Where no depth has a slope nothing else tells the offset.
-    problem.AddResidualBlock(
-        new ceres::NormalPrior(Eigen::Matrix2d::Identity() / COLOR_OFFSET_SIGMA_PX, Eigen::Vector2d::Zero()), nullptr,
-        color_offset_px.data());
-    solver_options.linear_solver_ordering->AddElementToGroup(color_offset_px.data(), 1);
-    if (!options.calibrate_color_offset)
-      problem.SetParameterBlockConstant(color_offset_px.data());
-  }
+  sensor.finish(options, &problem, solver_options.linear_solver_ordering.get());
 
   ProgressCallback callback(&control, options.max_iterations);
   solver_options.callbacks.push_back(&callback);
@@ -152,7 +142,7 @@ BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, in
     }
   }
   state->map.landmarks = std::move(landmarks);
-  state->color_offset_px = color_offset_px;
+  sensor.store(options, &problem, state);
   return result;
 }
 
@@ -161,9 +151,12 @@ SightError sightError(const Sight& sight, const geometry::PinholeCamera& camera,
   const Eigen::Vector3d p_camera =
       state.T_session_camera[sight.keyframe].inverse() * state.map.landmarks[sight.landmark];
   SightError error;
-  error.pixel_px = p_camera.z() > 1e-3 ? (camera.project(p_camera) + state.color_offset_px - sight.pixel).norm()
-                                       : std::numeric_limits<double>::infinity();
-  error.depth_m = p_camera.z() - sight.depth_m + sight.depth_slope_m_px.dot(state.color_offset_px);
+  const Eigen::Vector2d principal_px(camera.cx, camera.cy);
+  const Eigen::Vector2d pixel = principal_px + state.sensor.principal_shift_px + state.color_offset_px +
+                                state.sensor.focal_ratio.cwiseProduct(camera.project(p_camera) - principal_px);
+  error.pixel_px = p_camera.z() > 1e-3 ? (pixel - sight.pixel).norm() : std::numeric_limits<double>::infinity();
+  const double measured_m = sight.depth_m - sight.depth_slope_m_px.dot(state.color_offset_px);
+  error.depth_m = p_camera.z() - state.sensor.depth_ratio * measured_m - state.sensor.depth_offset_m;
   return error;
 }
 

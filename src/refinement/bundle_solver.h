@@ -4,6 +4,7 @@
 
 #include "landmark_map.h"
 #include "object_modelling/base/job_control.h"
+#include "object_modelling/rgbd/sensor_correction.h"
 #include "surface_links.h"
 
 namespace object_modelling::refinement
@@ -13,7 +14,12 @@ struct BundleSolverOptions
   double loss_width_sigmas = 2;
   int max_iterations = 50;
   int threads = 1;
-  bool calibrate_color_offset = false;  ///< else it stays as it is in the state
+  bool calibrate_color_offset = false;  ///< this and the following: else it stays as it is in the state
+  bool calibrate_intrinsics = false;
+  bool calibrate_depth_ratio = false;
+  bool calibrate_depth_offset = false;
+
+  bool calibratesSensor() const { return calibrate_intrinsics || calibrate_depth_ratio || calibrate_depth_offset; }
 };
 
 struct BundleSolverSummary
@@ -31,11 +37,13 @@ struct BundleState
   std::vector<SurfaceLink> surface_links;
   /// Pixel of a point in the colour image minus its pixel in the depth image.
   Eigen::Vector2d color_offset_px = Eigen::Vector2d::Zero();
+  /// Its sigmas are set by a run that calibrates the sensor.
+  rgbd::SensorCorrection sensor;
 };
 
 /// One run of Levenberg-Marquardt over all poses and landmarks (Ceres, landmarks eliminated first), Cauchy loss on
 /// every pixel and every depth on its own, so that a bad depth does not cost a good pixel; with them, if asked for, the
-/// offset of the colour images. `fixed_keyframe` stays where
+/// offset of the colour images and what the sensor is off by. `fixed_keyframe` stays where
 /// it is. `state` is changed only if the summary is usable. Rethrows what `control` throws.
 BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, int fixed_keyframe,
                                 const BundleSolverOptions& options, base::JobControl& control, BundleState* state);

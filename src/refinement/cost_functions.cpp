@@ -13,6 +13,7 @@ constexpr double BEHIND_SIGMAS = 1e3;
 
 using MotionJacobian = Eigen::Map<Eigen::Matrix<double, 2, 6, Eigen::RowMajor>>;
 using PointJacobian = Eigen::Map<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>>;
+using IntrinsicsJacobian = Eigen::Map<Eigen::Matrix<double, 2, 4, Eigen::RowMajor>>;
 using OffsetJacobian = Eigen::Map<Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>;
 
 }  // namespace
@@ -49,15 +50,19 @@ bool ReprojectionCost::Evaluate(const double* const* parameters, double* residua
       PointJacobian{ jacobians[1] }.setZero();
     if (derive && jacobians[2] != nullptr)
       OffsetJacobian{ jacobians[2] }.setZero();
+    if (derive && jacobians[3] != nullptr)
+      IntrinsicsJacobian{ jacobians[3] }.setZero();
     return true;
   }
-  residuals[0] = (camera_->fx * p.x() / p.z() + camera_->cx + parameters[2][0] - pixel_.x()) / sigma_px_;
-  residuals[1] = (camera_->fy * p.y() / p.z() + camera_->cy + parameters[2][1] - pixel_.y()) / sigma_px_;
+  const double* correction = parameters[3];
+  const double fx = camera_->fx * (1 + correction[0]), fy = camera_->fy * (1 + correction[1]);
+  const double x = p.x() / p.z(), y = p.y() / p.z();
+  residuals[0] = (fx * x + camera_->cx + correction[2] + parameters[2][0] - pixel_.x()) / sigma_px_;
+  residuals[1] = (fy * y + camera_->cy + correction[3] + parameters[2][1] - pixel_.y()) / sigma_px_;
   if (!derive)
     return true;
   Eigen::Matrix<double, 2, 3> by_camera_point;
-  by_camera_point << camera_->fx / p.z(), 0, -camera_->fx * p.x() / (p.z() * p.z()), 0, camera_->fy / p.z(),
-      -camera_->fy * p.y() / (p.z() * p.z());
+  by_camera_point << fx / p.z(), 0, -fx * x / p.z(), 0, fy / p.z(), -fy * y / p.z();
   by_camera_point /= sigma_px_;
   if (jacobians[0] != nullptr)
     MotionJacobian{ jacobians[0] }.noalias() = by_camera_point * by_motion;
@@ -65,6 +70,11 @@ bool ReprojectionCost::Evaluate(const double* const* parameters, double* residua
     PointJacobian{ jacobians[1] }.noalias() = by_camera_point * by_point;
   if (jacobians[2] != nullptr)
     OffsetJacobian{ jacobians[2] } = Eigen::Matrix2d::Identity() / sigma_px_;
+  if (jacobians[3] != nullptr)
+  {
+    IntrinsicsJacobian{ jacobians[3] } << camera_->fx * x, 0, 1, 0, 0, camera_->fy * y, 0, 1;
+    IntrinsicsJacobian{ jacobians[3] } /= sigma_px_;
+  }
   return true;
 }
 
@@ -75,8 +85,9 @@ bool DepthCost::Evaluate(const double* const* parameters, double* residuals, dou
   const bool derive = jacobians != nullptr;
   const Eigen::Vector3d p =
       camera_->transform(parameters[0], parameters[1], derive ? &by_motion : nullptr, derive ? &by_point : nullptr);
-  residuals[0] =
-      (p.z() - depth_m_ + slope_m_px_.x() * parameters[2][0] + slope_m_px_.y() * parameters[2][1]) / sigma_m_;
+  const double measured_m = depth_m_ - slope_m_px_.x() * parameters[2][0] - slope_m_px_.y() * parameters[2][1];
+  const double growth = 1 + parameters[3][0];
+  residuals[0] = (p.z() - growth * measured_m - parameters[4][0]) / sigma_m_;
   residuals[1] = 0;
   if (!derive)
     return true;
@@ -85,7 +96,11 @@ bool DepthCost::Evaluate(const double* const* parameters, double* residuals, dou
   if (jacobians[1] != nullptr)
     PointJacobian{ jacobians[1] } << by_point.row(2) / sigma_m_, Eigen::RowVector3d::Zero();
   if (jacobians[2] != nullptr)
-    OffsetJacobian{ jacobians[2] } << slope_m_px_.transpose() / sigma_m_, Eigen::RowVector2d::Zero();
+    OffsetJacobian{ jacobians[2] } << growth * slope_m_px_.transpose() / sigma_m_, Eigen::RowVector2d::Zero();
+  if (jacobians[3] != nullptr)
+    Eigen::Map<Eigen::Vector2d>{ jacobians[3] } << -measured_m / sigma_m_, 0;
+  if (jacobians[4] != nullptr)
+    Eigen::Map<Eigen::Vector2d>{ jacobians[4] } << -1 / sigma_m_, 0;
   return true;
 }
 

@@ -28,8 +28,9 @@ struct LinearisedCamera
 };
 
 /// Pixel of a landmark minus its observation, in sigmas. Blocks: motion (6), landmark in the session frame (3), offset
-/// of the colour image against the depth image (2, px).
-class ReprojectionCost : public ceres::SizedCostFunction<2, 6, 3, 2>
+/// of the colour image against the depth image (2, px), correction of the intrinsics (4: share that fx, fy grow by;
+/// shift of cx, cy, px).
+class ReprojectionCost : public ceres::SizedCostFunction<2, 6, 3, 2, 4>
 {
 public:
   /// `camera` must outlive the cost.
@@ -45,10 +46,10 @@ private:
   double sigma_px_;
 };
 
-/// Depth of a landmark minus its observation, in sigmas. Blocks as above. The second residual is always 0: Ceres has
-/// its Schur elimination compiled for residual blocks of 2 rows; blocks that differ cost a fifth of the whole time
-/// more.
-class DepthCost : public ceres::SizedCostFunction<2, 6, 3, 2>
+/// Depth of a landmark minus its observation, in sigmas. Blocks: motion, landmark, offset as above; share that depth
+/// grows by (1); what is added to it (1, m). The second residual is always 0: Ceres has its Schur elimination compiled
+/// for residual blocks of 2 rows; blocks that differ cost a fifth of the whole time more.
+class DepthCost : public ceres::SizedCostFunction<2, 6, 3, 2, 1, 1>
 {
 public:
   /// The depth was read at the landmark's pixel in the colour image. Where the images are offset that is beside it by

@@ -1,9 +1,12 @@
 #include "pose_covariance.h"
 
+#include <array>
+
 #include <Eigen/Cholesky>
 
 #include "cost_functions.h"
 #include "object_modelling/rgbd/sensor_noise_model.h"
+#include "sensor_blocks.h"
 #include "so3.h"
 
 namespace object_modelling::refinement
@@ -27,15 +30,15 @@ struct ResidualSum
 
 /// `dimension`: how many of the cost's two residuals are measurements.
 template <typename Cost>
-void accumulate(const Cost& cost, const double* landmark, const double* color_offset_px, double loss_width,
+void accumulate(const Cost& cost, const double* landmark, const std::array<const double*, 3>& sensor, double loss_width,
                 int dimension, SightEquations* equations, ResidualSum* sum)
 {
   const geometry::Vector6d motion = geometry::Vector6d::Zero();
-  const double* parameters[3] = { motion.data(), landmark, color_offset_px };
+  const double* parameters[5] = { motion.data(), landmark, sensor[0], sensor[1], sensor[2] };
   Eigen::Vector2d residual;
   Eigen::Matrix<double, 2, 6, Eigen::RowMajor> by_motion;
   Eigen::Matrix<double, 2, 3, Eigen::RowMajor> by_point;
-  double* jacobians[3] = { by_motion.data(), by_point.data(), nullptr };
+  double* jacobians[5] = { by_motion.data(), by_point.data(), nullptr, nullptr, nullptr };
   if (!cost.Evaluate(parameters, residual.data(), jacobians))
     return;
   const double weight = 1 / (1 + residual.squaredNorm() / (loss_width * loss_width));
@@ -95,6 +98,7 @@ std::vector<geometry::Matrix6d> poseCovariances(const std::vector<rgbd::Keyframe
     if (sight.keyframe != fixed_keyframe && unknown[sight.keyframe] < 0)
       unknown[sight.keyframe] = unknown_count++;
 
+  const SensorBlocks sensor(state);
   Eigen::MatrixXd reduced = Eigen::MatrixXd::Zero(6 * unknown_count, 6 * unknown_count);
   ResidualSum sum;
   std::vector<SightEquations> of_landmark;
@@ -103,16 +107,16 @@ std::vector<geometry::Matrix6d> poseCovariances(const std::vector<rgbd::Keyframe
   {
     const Sight& sight = sights[i];
     const double* landmark = state.map.landmarks[sight.landmark].data();
-    const double* offset = state.color_offset_px.data();
+    const double* offset = sensor.color_offset_px.data();
     SightEquations equations;
     equations.unknown = unknown[sight.keyframe];
-    accumulate(ReprojectionCost(&cameras[sight.keyframe], sight.pixel, sight.sigma_px), landmark, offset,
-               loss_width_sigmas, 2, &equations, &sum);
+    accumulate(ReprojectionCost(&cameras[sight.keyframe], sight.pixel, sight.sigma_px), landmark,
+               { offset, sensor.intrinsics.data(), nullptr }, loss_width_sigmas, 2, &equations, &sum);
     if (sight.depth_m > 0)
     {
       const double sigma_m = rgbd::axialSigma_m(sight.depth_m, 0);
-      accumulate(DepthCost(&cameras[sight.keyframe], sight.depth_m, sight.depth_slope_m_px, sigma_m), landmark, offset,
-                 loss_width_sigmas, 1, &equations, &sum);
+      accumulate(DepthCost(&cameras[sight.keyframe], sight.depth_m, sight.depth_slope_m_px, sigma_m), landmark,
+                 { offset, &sensor.depth_growth, &sensor.depth_offset_m }, loss_width_sigmas, 1, &equations, &sum);
     }
     of_landmark.push_back(equations);
     if (i + 1 == sights.size() || sights[i + 1].landmark != sight.landmark)

@@ -70,6 +70,68 @@ TEST(BundleAdjustment, keepsTheFirstPoseBitForBit)
   EXPECT_TRUE(result.covariance[0].isZero());
 }
 
+/// As a sensor whose intrinsics and depth are off would deliver them.
+std::vector<rgbd::Keyframe> mismeasured(std::vector<rgbd::Keyframe> keyframes, const rgbd::SensorCorrection& sensor)
+{
+  for (rgbd::Keyframe& keyframe : keyframes)
+  {
+    keyframe.frame.camera.fx /= sensor.focal_ratio.x();
+    keyframe.frame.camera.fy /= sensor.focal_ratio.y();
+    keyframe.frame.camera.cx -= sensor.principal_shift_px.x();
+    keyframe.frame.camera.cy -= sensor.principal_shift_px.y();
+    for (rgbd::Observation& observation : keyframe.observations)
+      observation.depth_m = static_cast<float>(observation.depth_m - sensor.depth_offset_m);
+  }
+  return keyframes;
+}
+
+TEST(BundleAdjustment, findsWhatTheSensorIsOffBy)
+{
+  SyntheticBundleOptions scene;
+  scene.pixel_sigma_px = 0.3;
+  scene.depth_sigma_scale = 1;
+  scene.landmark_count = 2000;
+  const std::vector<rgbd::Keyframe> truth = observedLandmarks(scene);
+  rgbd::SensorCorrection sensor;
+  sensor.focal_ratio = { 1.012, 0.991 };
+  sensor.principal_shift_px = { 2.5, -3 };
+  sensor.depth_offset_m = 0.004;
+  BundleAdjustmentOptions options = withoutLinks();
+  options.calibrate_intrinsics = options.calibrate_depth_offset = true;
+  const std::vector<rgbd::Keyframe> given = mismeasured(truth, sensor);
+  const BundleAdjustmentResult result = adjust(given, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  const rgbd::SensorCorrection& found = result.sensor;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    EXPECT_LT(found.focal_ratio_sigma[axis], 0.01);
+    EXPECT_NEAR(found.focal_ratio[axis], sensor.focal_ratio[axis], 4 * found.focal_ratio_sigma[axis] + 2e-4);
+    EXPECT_NEAR(found.principal_shift_px[axis], sensor.principal_shift_px[axis],
+                4 * found.principal_shift_sigma_px[axis] + 0.1);
+  }
+  EXPECT_LT(found.principal_shift_sigma_px.x(), 3);
+  EXPECT_GT(found.principal_shift_sigma_px.y(), 5);  // all cameras are held level: tilting them does the same
+  EXPECT_LT(found.depth_offset_sigma_m, 0.002);
+  EXPECT_NEAR(found.depth_offset_m, sensor.depth_offset_m, 4 * found.depth_offset_sigma_m + 1e-4);
+  EXPECT_EQ(found.depth_ratio, 1);
+  EXPECT_EQ(found.depth_ratio_sigma, 0);
+  const PoseError with = largestError(result.T_session_camera, truth);
+  const PoseError without = largestError(adjust(given).T_session_camera, truth);
+  EXPECT_LT(with.translation_m, 0.5 * without.translation_m);
+}
+
+TEST(BundleAdjustment, saysThatNothingTellsTheRatioOfDepth)
+{
+  SyntheticBundleOptions scene;
+  scene.pixel_sigma_px = 0.3;
+  BundleAdjustmentOptions options = withoutLinks();
+  options.calibrate_depth_ratio = true;
+  const BundleAdjustmentResult result = adjust(observedLandmarks(scene), options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_NEAR(result.sensor.depth_ratio, 1, 0.01);
+  EXPECT_GT(result.sensor.depth_ratio_sigma, 0.015);
+}
+
 TEST(BundleAdjustment, withstandsNoiseAndOutliers)
 {
   SyntheticBundleOptions options;

@@ -30,7 +30,8 @@ Eigen::Vector3d makeLandmark(const LinearisedCamera& camera)
   return camera.T_camera_session.inverse() * Eigen::Vector3d(0.1, -0.05, 0.8);
 }
 
-void expectRightDerivatives(const ceres::CostFunction& cost, const Eigen::Vector3d& landmark)
+void expectRightDerivatives(const ceres::CostFunction& cost, const Eigen::Vector3d& landmark,
+                            const Eigen::Vector4d& correction)
 {
   std::vector<geometry::Vector6d> motions(3, geometry::Vector6d::Zero());
   motions[1] << 0.01, -0.02, 0.03, 0.2, -0.1, 0.3;
@@ -45,7 +46,8 @@ void expectRightDerivatives(const ceres::CostFunction& cost, const Eigen::Vector
   for (const geometry::Vector6d& motion : motions)
   {
     const Eigen::Vector2d offset_px(0.3, -0.7);
-    const double* parameters[3] = { motion.data(), landmark.data(), offset_px.data() };
+    const double* parameters[5] = { motion.data(), landmark.data(), offset_px.data(), correction.data(),
+                                    &correction[1] };
     ceres::GradientChecker::ProbeResults results;
     EXPECT_TRUE(checker.Probe(parameters, 1e-6, &results)) << results.error_log;
   }
@@ -54,8 +56,9 @@ void expectRightDerivatives(const ceres::CostFunction& cost, const Eigen::Vector
 TEST(CostFunctions, haveRightDerivatives)
 {
   const LinearisedCamera camera = makeCamera();
-  expectRightDerivatives(ReprojectionCost(&camera, { 350, 220 }, 0.5), makeLandmark(camera));
-  expectRightDerivatives(DepthCost(&camera, 0.78, { 0.002, -0.001 }, 0.0015), makeLandmark(camera));
+  expectRightDerivatives(ReprojectionCost(&camera, { 350, 220 }, 0.5), makeLandmark(camera), { 0.02, -0.03, 1.5, -2 });
+  expectRightDerivatives(DepthCost(&camera, 0.78, { 0.002, -0.001 }, 0.0015), makeLandmark(camera),
+                         { 0.02, -0.004, 0, 0 });
 }
 
 TEST(CostFunctions, countInSigmas)
@@ -64,7 +67,8 @@ TEST(CostFunctions, countInSigmas)
   const Eigen::Vector3d landmark = makeLandmark(camera);
   const geometry::Vector6d motion = geometry::Vector6d::Zero();
   Eigen::Vector2d offset_px(0, 0);
-  const double* parameters[3] = { motion.data(), landmark.data(), offset_px.data() };
+  const Eigen::Vector4d none = Eigen::Vector4d::Zero();
+  const double* parameters[5] = { motion.data(), landmark.data(), offset_px.data(), none.data(), none.data() };
   const Eigen::Vector2d pixel(531 * 0.1 / 0.8 + 322, 527 * -0.05 / 0.8 + 237);
   double residuals[2];
   ASSERT_TRUE(ReprojectionCost(&camera, pixel - Eigen::Vector2d(1, -2), 0.5).Evaluate(parameters, residuals, nullptr));
@@ -80,6 +84,25 @@ TEST(CostFunctions, countInSigmas)
   EXPECT_NEAR(residuals[1], 0, 1e-9);
   ASSERT_TRUE(depth_cost.Evaluate(parameters, residuals, nullptr));
   EXPECT_NEAR(residuals[0], (0.8 - (0.803 - 1 * 0.002 - 2 * -0.001)) / 0.001, 1e-9);
+}
+
+TEST(CostFunctions, takeWhatTheSensorIsOffBy)
+{
+  const LinearisedCamera camera = makeCamera();
+  const Eigen::Vector3d landmark = makeLandmark(camera);
+  const geometry::Vector6d motion = geometry::Vector6d::Zero();
+  const Eigen::Vector2d offset_px(0, 0);
+  const Eigen::Vector4d intrinsics(0.01, -0.02, 3, 4);
+  const Eigen::Vector2d depth(0.01, -0.002);
+  double residuals[2];
+  const Eigen::Vector2d pixel(531 * 1.01 * 0.1 / 0.8 + 325, 527 * 0.98 * -0.05 / 0.8 + 241);
+  const double* of_pixel[4] = { motion.data(), landmark.data(), offset_px.data(), intrinsics.data() };
+  ASSERT_TRUE(ReprojectionCost(&camera, pixel, 0.5).Evaluate(of_pixel, residuals, nullptr));
+  EXPECT_NEAR(residuals[0], 0, 1e-9);
+  EXPECT_NEAR(residuals[1], 0, 1e-9);
+  const double* of_depth[5] = { motion.data(), landmark.data(), offset_px.data(), &depth[0], &depth[1] };
+  ASSERT_TRUE(DepthCost(&camera, 0.802 / 1.01, { 0, 0 }, 0.001).Evaluate(of_depth, residuals, nullptr));
+  EXPECT_NEAR(residuals[0], 0, 1e-9);
 }
 
 TEST(CostFunctions, surfacesMayLeaveADirectionFree)
@@ -107,9 +130,10 @@ TEST(CostFunctions, countALandmarkBehindTheCameraAsGrossOutlier)
   const Eigen::Vector3d behind = camera.T_camera_session.inverse() * Eigen::Vector3d(0.1, 0, -0.5);
   const geometry::Vector6d motion = geometry::Vector6d::Zero();
   const double offset_px[2] = { 0, 0 };
-  const double* parameters[3] = { motion.data(), behind.data(), offset_px };
-  double residuals[2], by_motion[12], by_point[6], by_offset[4];
-  double* jacobians[3] = { by_motion, by_point, by_offset };
+  const double correction[4] = { 0, 0, 0, 0 };
+  const double* parameters[4] = { motion.data(), behind.data(), offset_px, correction };
+  double residuals[2], by_motion[12], by_point[6], by_offset[4], by_correction[8];
+  double* jacobians[4] = { by_motion, by_point, by_offset, by_correction };
   ASSERT_TRUE(ReprojectionCost(&camera, { 0, 0 }, 1).Evaluate(parameters, residuals, jacobians));
   EXPECT_GT(residuals[0], 100);
   for (double value : by_motion)

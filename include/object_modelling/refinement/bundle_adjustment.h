@@ -5,6 +5,7 @@
 
 #include "object_modelling/base/job_control.h"
 #include "object_modelling/rgbd/keyframe.h"
+#include "object_modelling/rgbd/sensor_correction.h"
 
 namespace object_modelling::refinement
 {
@@ -18,8 +19,15 @@ struct BundleAdjustmentOptions
   /// Find by how much the colour images are shifted against the depth images, which are seldom registered to the pixel.
   /// Where surfaces are steep a shift of a third of a pixel makes the whole model 0.1 % too small.
   bool calibrate_color_offset = true;
+  /// Find what the intrinsics and the depth are off by, first of all, from landmarks; the rest is then done on frames
+  /// corrected by it. The ratio of depth is the scale of everything, which no recording tells: it stays within its
+  /// prior, and its sigma says so.
+  bool calibrate_intrinsics = false;
+  bool calibrate_depth_ratio = false;
+  bool calibrate_depth_offset = false;
   bool object_only = false;  ///< only observations on the object mask (turntable, object in motion)
-  int threads = 1;           ///< more than one: results are no longer equal bit for bit
+  bool calibratesSensor() const { return calibrate_intrinsics || calibrate_depth_ratio || calibrate_depth_offset; }
+  int threads = 1;  ///< more than one: results are no longer equal bit for bit
   std::uint64_t seed = 1;
   std::vector<std::string> violations() const;
 };
@@ -55,6 +63,9 @@ struct BundleAdjustmentResult
   /// Pixel of a point in the colour image minus its pixel in the depth image, whose camera the poses are of. Zero
   /// unless calibrated.
   Eigen::Vector2d color_offset_px = Eigen::Vector2d::Zero();
+  /// Of the frames given: poses, residuals and covariance are those of frames corrected by it. Identity unless
+  /// calibrated.
+  rgbd::SensorCorrection sensor;
   int iterations = 0;
   double initial_cost = 0, final_cost = 0;
 };
