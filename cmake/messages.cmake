@@ -1,6 +1,6 @@
 # Explicit lists: a message that is not listed is not generated.
 add_message_files(FILES
-  Status.msg Plane.msg
+  Status.msg Plane.msg SensorNoiseModel.msg SensorCalibration.msg
   Observation.msg Keyframe.msg ObjectMask.msg PoseUpdate.msg Session.msg StoreState.msg TrackingState.msg
   Progress.msg ObjectHypothesis.msg Hypotheses.msg SessionPlacement.msg AlignmentEdge.msg KeyframeResidual.msg
   KeyframeLink.msg SessionRefinement.msg StageTime.msg ObjectSummary.msg BuiltObject.msg ManagerState.msg)

@@ -1,39 +1,11 @@
 #include "yaml_text.h"
 
-#include <cmath>
-#include <limits>
-#include <locale>
-#include <sstream>
-
 #include "object_modelling/base/status.h"
 
 namespace object_modelling::database
 {
 using base::Error;
 using base::StatusCode;
-
-std::string yamlNumber(double value)
-{
-  if (std::isnan(value))
-    return ".nan";
-  if (std::isinf(value))
-    return value > 0 ? ".inf" : "-.inf";
-  std::string text;
-  for (int precision = 15; precision <= std::numeric_limits<double>::max_digits10; ++precision)
-  {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out.precision(precision);
-    out << value;
-    text = out.str();
-    std::istringstream in(text);
-    in.imbue(std::locale::classic());
-    double read = 0;
-    if (in >> read && read == value)
-      break;
-  }
-  return text;
-}
 
 void emitTransform(YAML::Emitter& out, const Eigen::Isometry3d& T_target_source)
 {

@@ -5,14 +5,15 @@
 #include <yaml-cpp/yaml.h>
 #include <Eigen/Geometry>
 
+#include "object_modelling/base/yaml_number.h"
+
 namespace object_modelling::database
 {
 constexpr int SCHEMA_VERSION = 1;  ///< of manifest.yaml and object.yaml
 constexpr char UNIT[] = "metre";
 constexpr char HANDEDNESS[] = "right";
 
-/// Shortest decimal that reads back as the same double, whatever the locale.
-std::string yamlNumber(double value);
+using base::yamlNumber;
 /// One flow-style list per row.
 void emitTransform(YAML::Emitter& out, const Eigen::Isometry3d& T_target_source);
 /// Throws YAML::Exception unless it is four rows of four numbers.

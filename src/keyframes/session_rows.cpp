@@ -2,6 +2,7 @@
 
 #include "number_text.h"
 #include "object_modelling/base/status.h"
+#include "object_modelling/rgbd/noise_model_file.h"
 #include "store_rows.h"
 
 namespace object_modelling::keyframes
@@ -13,16 +14,17 @@ using base::StatusCode;
 
 const char* const SESSION_COLUMNS =
     "SELECT session_id, object_id, camera_frame_id, started_s, reference_is_object, closed, "
-    "support_plane_session, model_from_session, "
+    "support_plane_session, model_from_session, calibration, refinement_report, "
     "(SELECT COUNT(*) FROM keyframes WHERE keyframes.session_id = sessions.session_id) FROM sessions ";
 
 /// The columns as they travel to and from SQL; empty optional columns are NULL.
 struct SessionRow
 {
-  std::string id, object_id, camera_frame_id, support_plane, model_from_session;
+  std::string id, object_id, camera_frame_id, support_plane, model_from_session, calibration, refinement_report;
   double started_s = 0;
   int reference_is_object = 0, closed = 0, keyframe_count = 0;
-  soci::indicator has_support_plane = soci::i_null, has_model_from_session = soci::i_null;
+  soci::indicator has_support_plane = soci::i_null, has_model_from_session = soci::i_null,
+                  has_calibration = soci::i_null;
 };
 
 SessionRow rowFrom(const Session& session)
@@ -46,6 +48,12 @@ SessionRow rowFrom(const Session& session)
     row.model_from_session = textFromTransform(*session.T_model_session);
     row.has_model_from_session = soci::i_ok;
   }
+  if (!(session.calibration == rgbd::SensorCalibration()))
+  {
+    row.calibration = rgbd::calibrationText(session.calibration);
+    row.has_calibration = soci::i_ok;
+  }
+  row.refinement_report = session.refinement_report;
   return row;
 }
 
@@ -68,6 +76,9 @@ Session sessionFrom(const SessionRow& row)
   if (row.has_model_from_session == soci::i_ok)
     session.T_model_session =
         transformFromText(row.model_from_session, "model_from_session of session '" + row.id + "'");
+  if (row.has_calibration == soci::i_ok)
+    session.calibration = rgbd::calibrationFromText(row.calibration, "calibration of session '" + row.id + "'");
+  session.refinement_report = row.refinement_report;
   return session;
 }
 
@@ -84,6 +95,8 @@ std::vector<Session> fetchSessions(soci::session& sql, const std::string& condit
   statement.exchange(soci::into(row.closed));
   statement.exchange(soci::into(row.support_plane, row.has_support_plane));
   statement.exchange(soci::into(row.model_from_session, row.has_model_from_session));
+  statement.exchange(soci::into(row.calibration, row.has_calibration));
+  statement.exchange(soci::into(row.refinement_report));
   statement.exchange(soci::into(row.keyframe_count));
   if (session_id != nullptr)
     statement.exchange(soci::use(*session_id, "session_id"));
@@ -106,11 +119,13 @@ void insertSession(soci::session& sql, const Session& session)
                 "session '" + session.id + "' exists already; choose another id or delete that session first");
   SessionRow row = rowFrom(session);
   sql << "INSERT INTO sessions (session_id, object_id, camera_frame_id, started_s, reference_is_object, closed, "
-         "support_plane_session, model_from_session) VALUES (:session_id, :object_id, :camera_frame_id, :started_s, "
-         ":reference_is_object, :closed, :support_plane, :model_from_session)",
+         "support_plane_session, model_from_session, calibration, refinement_report) VALUES (:session_id, :object_id, "
+         ":camera_frame_id, :started_s, :reference_is_object, :closed, :support_plane, :model_from_session, "
+         ":calibration, :refinement_report)",
       soci::use(row.id), soci::use(row.object_id), soci::use(row.camera_frame_id), soci::use(row.started_s),
       soci::use(row.reference_is_object), soci::use(row.closed), soci::use(row.support_plane, row.has_support_plane),
-      soci::use(row.model_from_session, row.has_model_from_session);
+      soci::use(row.model_from_session, row.has_model_from_session), soci::use(row.calibration, row.has_calibration),
+      soci::use(row.refinement_report);
 }
 
 std::vector<Session> selectSessions(soci::session& sql)
@@ -133,11 +148,12 @@ void updateSessionRow(soci::session& sql, const Session& session)
   selectSession(sql, session.id);
   SessionRow row = rowFrom(session);
   sql << "UPDATE sessions SET object_id = :object_id, reference_is_object = :reference_is_object, closed = :closed, "
-         "support_plane_session = :support_plane, model_from_session = :model_from_session WHERE session_id = "
-         ":session_id",
+         "support_plane_session = :support_plane, model_from_session = :model_from_session, "
+         "calibration = :calibration, refinement_report = :refinement_report WHERE session_id = :session_id",
       soci::use(row.object_id), soci::use(row.reference_is_object), soci::use(row.closed),
       soci::use(row.support_plane, row.has_support_plane),
-      soci::use(row.model_from_session, row.has_model_from_session), soci::use(row.id);
+      soci::use(row.model_from_session, row.has_model_from_session), soci::use(row.calibration, row.has_calibration),
+      soci::use(row.refinement_report), soci::use(row.id);
 }
 
 void deleteSessionRows(soci::session& sql, const std::string& session_id)

@@ -2,6 +2,7 @@
 #include <set>
 #include <utility>
 
+#include "object_modelling/base/options.h"
 #include "object_modelling/keyframes/session_store.h"
 #include "session_file.h"
 #include "sql_connection.h"
@@ -39,6 +40,11 @@ void checkSession(const Session& session)
                                                   "with '.' or '-'");
   if (!std::isfinite(session.started_s))
     throw Error(StatusCode::INVALID_ARGUMENT, sessionText(session.id) + ": started_s is not a finite time");
+  base::checked(session.calibration.noise_model);
+  if (!session.calibration.color_offset_px.allFinite())
+    throw Error(StatusCode::INVALID_ARGUMENT, sessionText(session.id) + ": the colour offset is not finite");
+  if (session.refinement_report.find('\0') != std::string::npos)
+    throw Error(StatusCode::INVALID_ARGUMENT, sessionText(session.id) + ": refinement_report holds a zero byte");
   if (session.camera_frame_id.find('\0') != std::string::npos)
     throw Error(StatusCode::INVALID_ARGUMENT, sessionText(session.id) + ": camera_frame_id holds a zero byte");
 }
@@ -115,9 +121,17 @@ public:
   {
     checkSessionId(session_id);
     KeyframeRow row;
-    connection_.read(sessionText(session_id), [&](soci::session& sql)
-                     { row = selectKeyframe(sql, connection_.dialect(), session_id, keyframe_id); });
-    return decodeKeyframe(row, "keyframe " + std::to_string(keyframe_id) + " of " + sessionText(session_id));
+    Session session;
+    connection_.read(sessionText(session_id),
+                     [&](soci::session& sql)
+                     {
+                       row = selectKeyframe(sql, connection_.dialect(), session_id, keyframe_id);
+                       session = selectSession(sql, session_id);
+                     });
+    rgbd::Keyframe keyframe =
+        decodeKeyframe(row, "keyframe " + std::to_string(keyframe_id) + " of " + sessionText(session_id));
+    keyframe.frame.noise_model = session.calibration.noise_model;
+    return keyframe;
   }
 
   void updatePoses(const std::string& session_id, const std::vector<PoseUpdate>& updates) override

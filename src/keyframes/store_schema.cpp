@@ -34,6 +34,12 @@ void createTables(soci::session& sql, const SqlDialect& dialect)
   sql << "CREATE TABLE keyframe_masks (" << key << "mask_png " << blob << ", " << belongs_to_keyframe;
 }
 
+void addCalibrationAndReport(soci::session& sql, const SqlDialect&)
+{
+  sql << "ALTER TABLE sessions ADD COLUMN calibration TEXT";
+  sql << "ALTER TABLE sessions ADD COLUMN refinement_report TEXT NOT NULL DEFAULT ''";
+}
+
 int readVersion(soci::session& sql, const SqlDialect& dialect)
 {
   const std::vector<std::string> tables = dialect.tables(sql);
@@ -52,7 +58,7 @@ int readVersion(soci::session& sql, const SqlDialect& dialect)
 
 const std::vector<Migration>& storeMigrations()
 {
-  static const std::vector<Migration> MIGRATIONS = { createTables };
+  static const std::vector<Migration> MIGRATIONS = { createTables, addCalibrationAndReport };
   return MIGRATIONS;
 }
 

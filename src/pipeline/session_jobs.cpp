@@ -98,7 +98,7 @@ void addTurntables(std::vector<rgbd::Keyframe>* keyframes)
 refinement::BundleAdjustmentResult refineSession(keyframes::SessionStore& store, const std::string& session_id,
                                                  refinement::BundleAdjustmentOptions options, base::JobControl& control)
 {
-  const keyframes::Session session = store.session(session_id);
+  keyframes::Session session = store.session(session_id);
   options.object_only |= session.reference_is_object;
   std::vector<rgbd::Keyframe> keyframes = loadReported(store, session_id, control);
   if (keyframes.empty())
@@ -119,6 +119,11 @@ refinement::BundleAdjustmentResult refineSession(keyframes::SessionStore& store,
         { keyframes[i].id, result.T_session_camera[i],
           i < result.covariance.size() ? result.covariance[i] : geometry::Matrix6d(geometry::Matrix6d::Zero()) });
   store.updatePoses(session_id, updates);
+  if (options.calibrate_color_offset)
+  {
+    session.calibration.color_offset_px = result.color_offset_px;
+    store.updateSession(session);
+  }
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "noise_model_fields.h"
 #include "object_modelling/base/options.h"
 
 namespace object_modelling::rgbd
@@ -10,90 +11,74 @@ namespace object_modelling::rgbd
 namespace
 {
 constexpr double RIGHT_ANGLE_RAD = M_PI / 2;
-constexpr double GRAZING_RAD = M_PI / 3;  ///< from here on the axial noise grows with the angle
 constexpr double UNBOUNDED = std::numeric_limits<double>::infinity();
-
-double angleWeight(double theta_rad, double theta_max_rad)
-{
-  if (!(theta_rad < RIGHT_ANGLE_RAD))
-    return 0;
-  return theta_rad <= theta_max_rad ? 1 : 1 - (theta_rad - theta_max_rad) / (RIGHT_ANGLE_RAD - theta_max_rad);
-}
-
-double edgeWeight(double edge_distance_m, double sigma_lateral_m)
-{
-  const double ratio = edge_distance_m / sigma_lateral_m;
-  // exp(-36) is below the resolution of the float that the weight ends in; most pixels are that far from any edge.
-  return ratio < 6 ? 1 - 0.5 * std::exp(-ratio * ratio) : 1;
-}
-
+const SensorNoiseModel DEFAULT_MODEL;
 }  // namespace
 
-double axialSigma_m(double z_m, double theta_rad)
+double SensorNoiseModel::axialSigma_m(double z_m, double theta_rad) const
 {
   if (theta_rad >= RIGHT_ANGLE_RAD)
     return UNBOUNDED;
-  const double sigma = 0.0012 + 0.0019 * (z_m - 0.4) * (z_m - 0.4);
-  if (theta_rad <= GRAZING_RAD)
+  const double beyond_m = z_m - axial_vertex_m;
+  const double sigma = axial_constant_m + axial_quadratic_per_m * beyond_m * beyond_m;
+  if (theta_rad <= axial_grazing_from_rad)
     return sigma;
   const double rest = RIGHT_ANGLE_RAD - theta_rad;
-  return sigma + 0.0001 / std::sqrt(z_m) * theta_rad * theta_rad / (rest * rest);
+  return sigma + axial_grazing_m_sqrt_m / std::sqrt(z_m) * theta_rad * theta_rad / (rest * rest);
 }
 
-double lateralSigma_px(double theta_rad)
+double SensorNoiseModel::lateralSigma_px(double theta_rad) const
 {
-  return theta_rad < RIGHT_ANGLE_RAD ? 0.8 + 0.035 * theta_rad / (RIGHT_ANGLE_RAD - theta_rad) : UNBOUNDED;
+  return theta_rad < RIGHT_ANGLE_RAD
+             ? lateral_constant_px + lateral_grazing_px * theta_rad / (RIGHT_ANGLE_RAD - theta_rad)
+             : UNBOUNDED;
 }
 
-double lateralSigma_m(double z_m, double theta_rad, double focal_px)
+double SensorNoiseModel::lateralSigma_m(double z_m, double theta_rad, double focal_px) const
 {
   return lateralSigma_px(theta_rad) * z_m / focal_px;
 }
 
-std::vector<std::string> ObservationWeightOptions::violations() const
+double SensorNoiseModel::depthBias_m(double z_m) const
 {
-  base::OptionsCheck check("observation_weight");
-  check.inRange("theta_max_rad", theta_max_rad, 0.0, RIGHT_ANGLE_RAD - 1e-6);
-  check.inRange("sigma_lateral_m", sigma_lateral_m, 1e-6, 1.0);
+  return depth_bias_constant_m + z_m * (depth_bias_linear_ratio + z_m * depth_bias_quadratic_per_m);
+}
+
+bool SensorNoiseModel::correctsDepth() const
+{
+  return depth_bias_constant_m != 0 || depth_bias_linear_ratio != 0 || depth_bias_quadratic_per_m != 0 ||
+         depth_distortion_ratio != Distortion{};
+}
+
+bool SensorNoiseModel::operator==(const SensorNoiseModel& other) const
+{
+  for (const NoiseModelField& field : NOISE_MODEL_FIELDS)
+    if (this->*field.value != other.*field.value)
+      return false;
+  return depth_distortion_ratio == other.depth_distortion_ratio;
+}
+
+std::vector<std::string> SensorNoiseModel::violations() const
+{
+  base::OptionsCheck check("noise_model");
+  for (const NoiseModelField& field : NOISE_MODEL_FIELDS)
+    check.inRange(field.key, this->*field.value, field.low, field.high);
+  for (std::size_t i = 0; i < depth_distortion_ratio.size(); ++i)
+    check.inRange("depth_distortion_ratio[" + std::to_string(i) + "]", depth_distortion_ratio[i], -0.2, 0.2);
   return check.violations();
 }
 
-double observationWeight(double theta_rad, double edge_distance_m, const ObservationWeightOptions& options)
+double axialSigma_m(double z_m, double theta_rad)
 {
-  return angleWeight(theta_rad, options.theta_max_rad) * edgeWeight(edge_distance_m, options.sigma_lateral_m);
+  return DEFAULT_MODEL.axialSigma_m(z_m, theta_rad);
 }
-
-cv::Mat observationWeights(const Frame& frame, const cv::Mat& normals, const cv::Mat& edge_distance_px,
-                           const ObservationWeightOptions& options)
+double lateralSigma_px(double theta_rad)
 {
-  base::checked(options);
-  const geometry::PinholeCamera& camera = frame.camera;
-  const auto cos_theta_max = static_cast<float>(std::cos(options.theta_max_rad));
-  const auto metres_per_px = static_cast<float>(2.0 / (camera.fx + camera.fy));  // at a depth of 1 m
-  cv::Mat weights(frame.depth_m.size(), CV_32FC1);
-  for (int v = 0; v < weights.rows; ++v)
-  {
-    const auto* depth_m = frame.depth_m.ptr<float>(v);
-    const auto* normal = normals.ptr<cv::Vec3f>(v);
-    const auto* distance_px = edge_distance_px.ptr<float>(v);
-    auto* weight = weights.ptr<float>(v);
-    const auto ray_y = static_cast<float>((v - camera.cy) / camera.fy);
-    for (int u = 0; u < weights.cols; ++u)
-    {
-      const auto ray_x = static_cast<float>((u - camera.cx) / camera.fx);
-      const cv::Vec3f& n = normal[u];
-      const float length = std::sqrt(ray_x * ray_x + ray_y * ray_y + 1);
-      const float cos_theta = -(n[0] * ray_x + n[1] * ray_y + n[2]) / length;
-      weight[u] = 0;
-      if (!(cos_theta > 0) || !(depth_m[u] > 0))
-        continue;
-      const double angle_weight =
-          cos_theta >= cos_theta_max ? 1 : angleWeight(std::acos(cos_theta), options.theta_max_rad);
-      const float distance_m = distance_px[u] * depth_m[u] * metres_per_px;
-      weight[u] = static_cast<float>(angle_weight * edgeWeight(distance_m, options.sigma_lateral_m));
-    }
-  }
-  return weights;
+  return DEFAULT_MODEL.lateralSigma_px(theta_rad);
+}
+double lateralSigma_m(double z_m, double theta_rad, double focal_px)
+{
+  return DEFAULT_MODEL.lateralSigma_m(z_m, theta_rad, focal_px);
 }
 
 }  // namespace object_modelling::rgbd

@@ -5,6 +5,7 @@
 #include "object_modelling/rgbd/depth_units.h"
 #include "object_modelling/ros_bridge/camera_conversion.h"
 #include "object_modelling/ros_bridge/image_conversion.h"
+#include "object_modelling/ros_bridge/noise_model_conversion.h"
 #include "object_modelling/ros_bridge/pose_conversion.h"
 #include "object_modelling/ros_bridge/time_conversion.h"
 
@@ -40,6 +41,8 @@ rgbd::Frame frameFromMessage(const object_modelling::Keyframe& message)
   }
   frame.depth_m = rgbd::depthInMetres(depthFromMessage(message.depth), MILLIMETRE_M);
   frame.object_mask = maskFromMessage(message.object_mask);
+  if (message.has_noise_model)
+    frame.noise_model = fromMessage(message.noise_model);
   requireSize(frame.color_bgr, frame.camera, "colour");
   requireSize(frame.depth_m, frame.camera, "depth");
   if (!frame.object_mask.empty())
@@ -61,6 +64,8 @@ object_modelling::Keyframe toMessage(const rgbd::Keyframe& keyframe, const std::
   message.depth = toMessage(keyframe.frame.depth_m, message.header);
   message.object_mask = toMessage(keyframe.frame.object_mask, message.header);
   message.session_from_camera = toMessage(keyframe.T_session_camera, keyframe.covariance);
+  message.has_noise_model = true;
+  message.noise_model = toMessage(keyframe.frame.noise_model);
   message.observations.reserve(keyframe.observations.size());
   for (const rgbd::Observation& observation : keyframe.observations)
   {

@@ -1,5 +1,6 @@
 #include "object_modelling/ros_bridge/session_conversion.h"
 
+#include "object_modelling/ros_bridge/noise_model_conversion.h"
 #include "object_modelling/ros_bridge/pose_conversion.h"
 #include "object_modelling/ros_bridge/time_conversion.h"
 
@@ -19,6 +20,9 @@ object_modelling::Session toMessage(const keyframes::Session& session)
   message.support_plane = toMessage(session.support_plane_session.value_or(geometry::Plane()));
   message.has_model_from_session = session.T_model_session.has_value();
   message.model_from_session = toPoseMessage(session.T_model_session.value_or(Eigen::Isometry3d::Identity()));
+  message.has_calibration = true;
+  message.calibration = toMessage(session.calibration);
+  message.refinement_report = session.refinement_report;
   return message;
 }
 
@@ -36,6 +40,9 @@ keyframes::Session fromMessage(const object_modelling::Session& message)
     session.support_plane_session = fromMessage(message.support_plane);
   if (message.has_model_from_session)
     session.T_model_session = fromMessage(message.model_from_session);
+  if (message.has_calibration)
+    session.calibration = fromMessage(message.calibration);
+  session.refinement_report = message.refinement_report;
   return session;
 }
 

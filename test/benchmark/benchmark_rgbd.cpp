@@ -4,7 +4,7 @@
 #include "object_modelling/rgbd/depth_units.h"
 #include "object_modelling/rgbd/frame_builder.h"
 #include "object_modelling/rgbd/normals.h"
-#include "object_modelling/rgbd/sensor_noise_model.h"
+#include "object_modelling/rgbd/observation_weight.h"
 #include "support/handheld_trajectory.h"
 #include "support/synthetic_scene.h"
 

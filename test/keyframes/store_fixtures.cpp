@@ -61,6 +61,18 @@ Session makeSession(const std::string& id)
   return session;
 }
 
+rgbd::SensorCalibration makeCalibration()
+{
+  rgbd::SensorCalibration calibration;
+  calibration.noise_model.axial_constant_m = 0.001 + 1.0 / 3e4;
+  calibration.noise_model.axial_quadratic_per_m = 0.0031;
+  calibration.noise_model.lateral_constant_px = 0.9;
+  calibration.noise_model.depth_bias_linear_ratio = -0.0012;
+  calibration.noise_model.depth_distortion_ratio[5] = 1.0 / 7000;
+  calibration.color_offset_px = { 1.0 / 3, -0.125 };
+  return calibration;
+}
+
 double depthDifference_m(const cv::Mat& a, const cv::Mat& b)
 {
   if (a.size() != b.size() || a.type() != CV_32FC1 || b.type() != CV_32FC1)

@@ -20,6 +20,8 @@ public:
 /// A keyframe with a textured image, slanted depth with holes, a mask and observations; another for every id.
 rgbd::Keyframe makeKeyframe(int id, int width = 64, int height = 48);
 Session makeSession(const std::string& id);
+/// No two coefficients alike, none the default.
+rgbd::SensorCalibration makeCalibration();
 
 /// Largest difference of depth in m; infinite where only one of them is missing.
 double depthDifference_m(const cv::Mat& a, const cv::Mat& b);

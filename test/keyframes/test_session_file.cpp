@@ -19,6 +19,8 @@ protected:
     Session session = makeSession("a");
     session.T_model_session = makeKeyframe(4).T_session_camera;
     session.closed = true;
+    session.calibration = makeCalibration();
+    session.refinement_report = "refined";
     session.reference_is_object = true;
     store_->createSession(session);
     store_->createSession(makeSession("other"));
@@ -35,6 +37,8 @@ protected:
     EXPECT_TRUE(session.closed);
     EXPECT_TRUE(session.reference_is_object);
     EXPECT_EQ(session.object_id, "cup");
+    EXPECT_TRUE(session.calibration == expected.calibration);
+    EXPECT_EQ(session.refinement_report, "refined");
     EXPECT_EQ(session.started_s, expected.started_s);
     EXPECT_EQ(session.T_model_session->matrix(), expected.T_model_session->matrix());
     for (const int id : store_->keyframeIds("a"))

@@ -82,15 +82,45 @@ TEST_P(SqlStore, UpdatesSessions)
   changed.camera_frame_id = "not updated";
   changed.closed = true;
   changed.T_model_session = Eigen::Isometry3d::Identity();
+  changed.calibration = makeCalibration();
+  changed.refinement_report = "it's \xc3\xa9\n100 % refined";
   store_->updateSession(changed);
   Session read = store_->session("a");
+  EXPECT_TRUE(read.calibration == changed.calibration);
+  EXPECT_EQ(read.refinement_report, changed.refinement_report);
   EXPECT_EQ(read.object_id, "box");
   EXPECT_EQ(read.camera_frame_id, makeSession("a").camera_frame_id);
   EXPECT_TRUE(read.closed);
   EXPECT_TRUE(read.T_model_session);
   changed.T_model_session.reset();
+  changed.calibration = rgbd::SensorCalibration();
   store_->updateSession(changed);
+  EXPECT_TRUE(store_->session("a").calibration == rgbd::SensorCalibration());
   EXPECT_FALSE(store_->session("a").T_model_session);
+}
+
+TEST_P(SqlStore, KeyframesHaveTheNoiseModelOfTheirSession)
+{
+  Session calibrated = makeSession("a");
+  calibrated.calibration = makeCalibration();
+  store_->createSession(calibrated);
+  store_->createSession(makeSession("b"));
+  store_->addKeyframe("a", makeKeyframe(0));
+  store_->addKeyframe("b", makeKeyframe(0));
+  EXPECT_TRUE(store_->keyframe("a", 0).frame.noise_model == makeCalibration().noise_model);
+  EXPECT_TRUE(store_->keyframe("b", 0).frame.noise_model == rgbd::SensorNoiseModel());
+}
+
+TEST_P(SqlStore, RefusesAnImpossibleCalibration)
+{
+  Session session = makeSession("a");
+  session.calibration.noise_model.axial_constant_m = -1;
+  const base::Status status = statusOf([&] { store_->createSession(session); });
+  EXPECT_EQ(status.code, StatusCode::INVALID_ARGUMENT);
+  EXPECT_NE(status.message.find("axial_constant_m"), std::string::npos) << status.message;
+  session = makeSession("a");
+  session.calibration.color_offset_px.x() = std::nan("");
+  EXPECT_EQ(statusOf([&] { store_->createSession(session); }).code, StatusCode::INVALID_ARGUMENT);
 }
 
 TEST_P(SqlStore, KeepsKeyframesAcrossReopening)

@@ -56,6 +56,32 @@ TEST_P(StoreSchema, MigratesAVersionZeroStore)
   EXPECT_EQ(version(), static_cast<int>(storeMigrations().size()));
 }
 
+TEST_P(StoreSchema, TakesAStoreOfVersionOneWithItsSessions)
+{
+  const std::vector<Migration> first(storeMigrations().begin(), storeMigrations().begin() + 1);
+  migrate(*connect(), first);
+  execute(
+      "INSERT INTO sessions (session_id, object_id, camera_frame_id, started_s, reference_is_object, closed) "
+      "VALUES ('a', 'cup', 'cam', 12.5, 1, 1)");
+  execute(
+      "INSERT INTO keyframes (session_id, keyframe_id, stamp_s, width_px, height_px, fx_px, fy_px, cx_px, cy_px, "
+      "distortion, session_from_camera, covariance) VALUES ('a', 0, 12.5, 4, 3, 5, 5, 1, 1, '', '', '')");
+  ASSERT_EQ(version(), 1);
+  const std::unique_ptr<SessionStore> store = openSqlStore(connection_);
+  EXPECT_EQ(version(), 2);
+  Session session = store->session("a");
+  EXPECT_EQ(session.object_id, "cup");
+  EXPECT_EQ(session.keyframe_count, 1);
+  EXPECT_TRUE(session.closed && session.reference_is_object);
+  EXPECT_TRUE(session.calibration == rgbd::SensorCalibration());
+  EXPECT_EQ(session.refinement_report, "");
+  session.calibration.color_offset_px = { 0.3, -0.1 };
+  session.refinement_report = "bundle adjustment";
+  store->updateSession(session);
+  EXPECT_TRUE(store->session("a").calibration == session.calibration);
+  EXPECT_EQ(store->session("a").refinement_report, "bundle adjustment");
+}
+
 TEST_P(StoreSchema, MigrationsKeepTheData)
 {
   {

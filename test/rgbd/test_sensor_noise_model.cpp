@@ -8,6 +8,7 @@
 #include "object_modelling/base/status.h"
 #include "object_modelling/rgbd/depth_edges.h"
 #include "object_modelling/rgbd/normals.h"
+#include "object_modelling/rgbd/observation_weight.h"
 #include "support/handheld_trajectory.h"
 #include "support/synthetic_scene.h"
 
@@ -62,22 +63,22 @@ TEST(Sigmas, UnboundedFromARightAngleOn)
 TEST(ObservationWeight, AngleFactor)
 {
   const double far = 1;
-  EXPECT_DOUBLE_EQ(observationWeight(0, far), 1);
-  EXPECT_DOUBLE_EQ(observationWeight(59.9 * DEG, far), 1);
-  EXPECT_NEAR(observationWeight(60 * DEG, far), 1, 1e-9);
-  EXPECT_NEAR(observationWeight(75 * DEG, far), 0.5, 1e-9);
-  EXPECT_NEAR(observationWeight(89.999 * DEG, far), 0, 1e-4);
-  EXPECT_EQ(observationWeight(90 * DEG, far), 0);
-  EXPECT_EQ(observationWeight(120 * DEG, far), 0);
+  EXPECT_DOUBLE_EQ(paperWeight(0, far), 1);
+  EXPECT_DOUBLE_EQ(paperWeight(59.9 * DEG, far), 1);
+  EXPECT_NEAR(paperWeight(60 * DEG, far), 1, 1e-9);
+  EXPECT_NEAR(paperWeight(75 * DEG, far), 0.5, 1e-9);
+  EXPECT_NEAR(paperWeight(89.999 * DEG, far), 0, 1e-4);
+  EXPECT_EQ(paperWeight(90 * DEG, far), 0);
+  EXPECT_EQ(paperWeight(120 * DEG, far), 0);
 }
 
 TEST(ObservationWeight, EdgeFactor)
 {
-  EXPECT_DOUBLE_EQ(observationWeight(0, 0), 0.5);
-  EXPECT_NEAR(observationWeight(0, 0.002), 1 - 0.5 * std::exp(-1.0), 1e-12);
-  EXPECT_NEAR(observationWeight(0, 0.004), 1 - 0.5 * std::exp(-4.0), 1e-12);
-  EXPECT_NEAR(observationWeight(75 * DEG, 0), 0.25, 1e-9);
-  EXPECT_EQ(observationWeight(0, std::numeric_limits<double>::infinity()), 1);
+  EXPECT_DOUBLE_EQ(paperWeight(0, 0), 0.5);
+  EXPECT_NEAR(paperWeight(0, 0.002), 1 - 0.5 * std::exp(-1.0), 1e-12);
+  EXPECT_NEAR(paperWeight(0, 0.004), 1 - 0.5 * std::exp(-4.0), 1e-12);
+  EXPECT_NEAR(paperWeight(75 * DEG, 0), 0.25, 1e-9);
+  EXPECT_EQ(paperWeight(0, std::numeric_limits<double>::infinity()), 1);
 }
 
 TEST(ObservationWeight, StaysWithinItsRangeAndNeverFallsAwayFromAnEdge)
@@ -87,7 +88,7 @@ TEST(ObservationWeight, StaysWithinItsRangeAndNeverFallsAwayFromAnEdge)
     double previous = 0;
     for (double distance_m = 0; distance_m < 0.03; distance_m += 0.0005)
     {
-      const double weight = observationWeight(theta, distance_m);
+      const double weight = paperWeight(theta, distance_m);
       EXPECT_GE(weight, previous);
       EXPECT_LE(weight, 1);
       previous = weight;
@@ -118,7 +119,7 @@ TEST(ObservationWeights, ImageAgreesWithTheFormulaAtSeveralDepths)
         }
         const Eigen::Vector3d ray = camera.unproject(u, v, 1).normalized();
         const double theta = std::acos(-ray.dot(Eigen::Vector3d(n[0], n[1], n[2])));
-        EXPECT_NEAR(weight, observationWeight(theta, distance_px.at<float>(v, u) * z / 525.0), 2e-4);
+        EXPECT_NEAR(weight, paperWeight(theta, distance_px.at<float>(v, u) * z / 525.0), 2e-4);
       }
   }
 }

@@ -122,7 +122,13 @@ TEST(SessionConversion, RoundTrip)
   EXPECT_TRUE(back.closed);
   EXPECT_FALSE(back.support_plane_session);
   EXPECT_FALSE(back.T_model_session);
+  EXPECT_TRUE(back.calibration == rgbd::SensorCalibration());
+  EXPECT_TRUE(fromMessage(object_modelling::Session()).calibration == rgbd::SensorCalibration());
 
+  session.calibration.noise_model.axial_quadratic_per_m = 0.003;
+  session.calibration.noise_model.depth_distortion_ratio[62] = 0.001;
+  session.calibration.color_offset_px = { 0.25, -0.5 };
+  session.refinement_report = "refined";
   geometry::Plane plane;
   plane.normal = Eigen::Vector3d(0, 0.6, -0.8);
   plane.offset_m = 0.7;
@@ -132,6 +138,8 @@ TEST(SessionConversion, RoundTrip)
   ASSERT_TRUE(back.support_plane_session);
   EXPECT_EQ(plane.normal, back.support_plane_session->normal);
   EXPECT_EQ(0.7, back.support_plane_session->offset_m);
+  EXPECT_TRUE(back.calibration == session.calibration);
+  EXPECT_EQ(back.refinement_report, "refined");
   ASSERT_TRUE(back.T_model_session);
   EXPECT_TRUE(back.T_model_session->isApprox(somePose(), 1e-12));
 }
@@ -145,6 +153,12 @@ TEST(SessionConversion, UnusablePartsAreRefused)
   message = toMessage(keyframes::Session());
   message.has_model_from_session = true;
   message.model_from_session = geometry_msgs::Pose();
+  EXPECT_THROW(fromMessage(message), base::Error);
+  message = toMessage(keyframes::Session());
+  message.calibration.noise_model.axial_constant_m = 0;
+  EXPECT_THROW(fromMessage(message), base::Error);
+  message = toMessage(keyframes::Session());
+  message.calibration.noise_model.depth_distortion_ratio = { 1, 2 };
   EXPECT_THROW(fromMessage(message), base::Error);
 }
 

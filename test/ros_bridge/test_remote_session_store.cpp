@@ -91,11 +91,16 @@ TEST_F(RemoteSessionStoreTest, Updates)
   session.object_id = "mug";
   session.closed = true;
   session.T_model_session = T_session_camera;
+  session.calibration.noise_model.axial_constant_m = 0.002;
+  session.refinement_report = "refined";
   session.support_plane_session = geometry::Plane();
   store_.updateSession(session);
   session = store_.session(id_);
   EXPECT_EQ("mug", session.object_id);
   EXPECT_TRUE(session.closed && session.T_model_session && session.support_plane_session);
+  EXPECT_EQ(0.002, session.calibration.noise_model.axial_constant_m);
+  EXPECT_EQ("refined", session.refinement_report);
+  EXPECT_EQ(0.002, store_.keyframe(id_, 0).frame.noise_model.axial_constant_m);
 }
 
 TEST_F(RemoteSessionStoreTest, ErrorsKeepTheirCode)

@@ -8,7 +8,7 @@
 
 #include "object_modelling/base/job_control.h"
 #include "object_modelling/rgbd/keyframe.h"
-#include "object_modelling/rgbd/sensor_noise_model.h"
+#include "object_modelling/rgbd/observation_weight.h"
 
 namespace object_modelling::fusion
 {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "object_modelling/geometry/plane.h"
+#include "object_modelling/rgbd/sensor_noise_model.h"
 
 namespace object_modelling::keyframes
 {
@@ -20,6 +21,9 @@ struct Session
   bool closed = false;  ///< recording has ended
   std::optional<geometry::Plane> support_plane_session;  ///< normal up
   std::optional<Eigen::Isometry3d> T_model_session;      ///< placed in the model frame; empty until aligned
+  /// Of the sensor that recorded it; what the noise model knows of bias is off the stored depth already.
+  rgbd::SensorCalibration calibration;
+  std::string refinement_report;  ///< how the poses were refined; empty if they never were
 };
 
 /// Whether a name can be used as session or object id everywhere (files, topics, SQL): 1 to 64 of [A-Za-z0-9_.-], not

@@ -35,7 +35,8 @@ public:
   virtual void createSession(const Session& session) = 0;
   virtual std::vector<Session> listSessions() = 0;  ///< oldest first
   virtual Session session(const std::string& session_id) = 0;
-  /// Replaces object_id, reference_is_object, closed, support_plane_session and T_model_session.
+  /// Replaces object_id, reference_is_object, closed, support_plane_session, T_model_session, calibration and
+  /// refinement_report.
   virtual void updateSession(const Session& session) = 0;
   virtual void deleteSession(const std::string& session_id) = 0;
 
@@ -43,6 +44,7 @@ public:
   /// 0.1 mm (1 mm if any reading is beyond 6.5 m; beyond 65.5 m counts as missing), everything else exactly.
   virtual void addKeyframe(const std::string& session_id, const rgbd::Keyframe& keyframe) = 0;
   virtual std::vector<int> keyframeIds(const std::string& session_id) = 0;  ///< ascending
+  /// Its frame has the noise model of the session.
   virtual rgbd::Keyframe keyframe(const std::string& session_id, int keyframe_id) = 0;
   virtual void updatePoses(const std::string& session_id, const std::vector<PoseUpdate>& updates) = 0;
   virtual void updateMasks(const std::string& session_id, const std::vector<MaskUpdate>& updates) = 0;

@@ -29,7 +29,7 @@ SegmentReport segmentSession(keyframes::SessionStore& store, const std::string& 
                              const std::optional<Eigen::Vector3d>& seed_point_session,
                              const segmentation::ObjectMaskPropagatorOptions& options, base::JobControl& control);
 
-/// Bundle adjustment of one session; writes the poses back if it succeeded.
+/// Bundle adjustment of one session; writes the poses and the colour offset back if it succeeded.
 refinement::BundleAdjustmentResult refineSession(keyframes::SessionStore& store, const std::string& session_id,
                                                  refinement::BundleAdjustmentOptions options,
                                                  base::JobControl& control);

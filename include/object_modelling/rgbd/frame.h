@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "object_modelling/geometry/pinhole_camera.h"
+#include "object_modelling/rgbd/sensor_noise_model.h"
 
 namespace object_modelling::rgbd
 {
@@ -18,6 +19,7 @@ struct Frame
   cv::Mat depth_m;                 ///< CV_32FC1, along the optical axis; NaN where missing
   cv::Mat object_mask;             ///< CV_8UC1, 255 on the object; empty where not known
   geometry::PinholeCamera camera;  ///< rectified: no distortion
+  SensorNoiseModel noise_model;    ///< of the sensor; its bias has been taken off depth_m
 
   float depthAt_m(int u, int v) const { return depth_m.at<float>(v, u); }
   /// Optical-frame point of an integer pixel; NaN where depth is missing.

@@ -28,11 +28,12 @@ struct FrameBuilderOptions
   double min_depth_ratio = 0.001;        ///< share of pixels that must have depth
   double min_depth_m = 0.1;              ///< nearer or farther readings count as missing
   double max_depth_m = 8.0;
+  SensorNoiseModel noise_model;  ///< goes with every frame; what it knows of bias is taken off the depth
   std::vector<std::string> violations() const;
 };
 
-/// Checks a raw frame and makes a Frame of it: depth in metres, both images rectified (colour bilinear, depth and mask
-/// nearest neighbour) through maps that are computed once per camera. Not thread safe.
+/// Checks a raw frame and makes a Frame of it: depth in metres, without the noise model's bias, both images rectified
+/// (colour bilinear, depth and mask nearest neighbour) through maps that are computed once per camera. Not thread safe.
 class FrameBuilder
 {
 public:

@@ -1,38 +1,75 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
-#include <opencv2/core.hpp>
-
-#include "object_modelling/rgbd/frame.h"
+#include <Eigen/Core>
 
 namespace object_modelling::rgbd
 {
-/// Kinect-type noise after Nguyen, Izadi, Lovell: Modeling Kinect Sensor Noise for Improved 3D Reconstruction and
-/// Tracking, 3DIMPVT 2012. theta is the angle between surface normal and viewing ray, in [0, pi/2); from pi/2 on the
-/// surface cannot be seen and the sigmas are infinite.
-double axialSigma_m(double z_m, double theta_rad);
-double lateralSigma_px(double theta_rad);
-/// lateralSigma_px * z / f: the factor z / f once (V4R applied z twice, right at 1 m only).
-double lateralSigma_m(double z_m, double theta_rad, double focal_px);
-
-struct ObservationWeightOptions
+/// Noise of a depth sensor. The defaults are a Kinect's after Nguyen, Izadi, Lovell: Modeling Kinect Sensor Noise for
+/// Improved 3D Reconstruction and Tracking, 3DIMPVT 2012; docs/noise_model.md tells how to measure those of another.
+///
+///   sigma_z = axial_constant + axial_quadratic (z - axial_vertex)^2
+///             + axial_grazing / sqrt(z) theta^2 / (90 deg - theta)^2   if theta > axial_grazing_from
+///   sigma_L = lateral_constant + lateral_grazing theta / (90 deg - theta)
+///   measured z - true z = depth_bias_constant + depth_bias_linear z + depth_bias_quadratic z^2 + distortion(u, v) z
+///
+/// z is along the optical axis, theta the angle between surface normal and viewing ray, in [0, 90 deg); from there on
+/// the surface cannot be seen and the sigmas are infinite. The bias is taken off by FrameBuilder, once: every frame's
+/// depth is corrected already.
+struct SensorNoiseModel
 {
-  double theta_max_rad = 1.0471975511965976;  ///< 60 deg; flat weight below, falls to 0 at 90 deg
-  double sigma_lateral_m = 0.002;             ///< width of the dip at depth edges
+  static constexpr int DISTORTION_COLUMNS = 9;
+  static constexpr int DISTORTION_ROWS = 7;
+  using Distortion = std::array<double, DISTORTION_COLUMNS * DISTORTION_ROWS>;
+
+  double axial_constant_m = 0.0012;
+  double axial_quadratic_per_m = 0.0019;
+  double axial_vertex_m = 0.4;
+  double axial_grazing_m_sqrt_m = 0.0001;              ///< unit: metre times root of metre
+  double axial_grazing_from_rad = 1.0471975511965976;  ///< 60 deg
+  double lateral_constant_px = 0.8;
+  double lateral_grazing_px = 0.035;
+  double depth_bias_constant_m = 0;
+  double depth_bias_linear_ratio = 0;
+  double depth_bias_quadratic_per_m = 0;
+  /// Share of the depth, at knots that divide the image evenly from its first to its last pixel, row by row; bilinear
+  /// between them.
+  Distortion depth_distortion_ratio{};
+
+  double axialSigma_m(double z_m, double theta_rad) const;
+  double lateralSigma_px(double theta_rad) const;
+  /// lateralSigma_px * z / f: the factor z / f once (V4R applied z twice, right at 1 m only).
+  double lateralSigma_m(double z_m, double theta_rad, double focal_px) const;
+
+  /// Measured minus true depth, without the distortion; `z_m` is the measured depth.
+  double depthBias_m(double z_m) const;
+  bool correctsDepth() const;
+
+  bool operator==(const SensorNoiseModel& other) const;
+  bool operator!=(const SensorNoiseModel& other) const { return !(*this == other); }
+  /// Every coefficient that is out of its bound, as options have it.
   std::vector<std::string> violations() const;
 };
 
-/// Noise weight of the paper (Aldoma et al. 2015, Eq. 1) in [0, 1], corrected: first factor clamped to 1 below
-/// theta_max and 0 above 90 deg; the exponent has the minus sign that the printed form lacks:
-///   w = (1 - (theta - theta_max) / (90 deg - theta_max)) (1 - 1/2 exp(-d^2 / sigma_L^2)),
-/// d in m: distance on the surface to the nearest depth edge, theta measured against the viewing ray.
-double observationWeight(double theta_rad, double edge_distance_m, const ObservationWeightOptions& options = {});
+/// Of the default model.
+double axialSigma_m(double z_m, double theta_rad);
+double lateralSigma_px(double theta_rad);
+double lateralSigma_m(double z_m, double theta_rad, double focal_px);
 
-/// Weight per pixel, CV_32FC1, 0 where depth or normal is missing. `normals` as from computeNormals; the distance in
-/// pixels becomes metres by z / f.
-cv::Mat observationWeights(const Frame& frame, const cv::Mat& normals, const cv::Mat& edge_distance_px,
-                           const ObservationWeightOptions& options = {});
+/// What is known of the sensor that recorded a session.
+struct SensorCalibration
+{
+  SensorNoiseModel noise_model;
+  /// Pixel of a point in the colour image minus its pixel in the depth image; zero where not known.
+  Eigen::Vector2d color_offset_px = Eigen::Vector2d::Zero();
+
+  bool operator==(const SensorCalibration& other) const
+  {
+    return noise_model == other.noise_model && color_offset_px == other.color_offset_px;
+  }
+};
 
 }  // namespace object_modelling::rgbd

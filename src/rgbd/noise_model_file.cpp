@@ -1,0 +1,167 @@
+#include "object_modelling/rgbd/noise_model_file.h"
+
+#include <yaml-cpp/yaml.h>
+#include <algorithm>
+#include <iterator>
+#include <sstream>
+
+#include "noise_model_fields.h"
+#include "object_modelling/base/atomic_file.h"
+#include "object_modelling/base/options.h"
+#include "object_modelling/base/yaml_number.h"
+
+namespace object_modelling::rgbd
+{
+namespace
+{
+using base::Error;
+using base::StatusCode;
+
+constexpr char DISTORTION[] = "depth_distortion_ratio";
+constexpr char NOISE_MODEL[] = "noise_model";
+constexpr char COLOR_OFFSET[] = "color_offset_px";
+
+void emit(YAML::Emitter& out, const SensorNoiseModel& model)
+{
+  out << YAML::BeginMap;
+  for (const NoiseModelField& field : NOISE_MODEL_FIELDS)
+    out << YAML::Key << field.key << YAML::Value << base::yamlNumber(model.*field.value);
+  if (model.depth_distortion_ratio != SensorNoiseModel::Distortion{})
+  {
+    out << YAML::Key << DISTORTION << YAML::Value << YAML::BeginSeq;
+    for (int row = 0; row < SensorNoiseModel::DISTORTION_ROWS; ++row)
+    {
+      out << YAML::Flow << YAML::BeginSeq;
+      for (int column = 0; column < SensorNoiseModel::DISTORTION_COLUMNS; ++column)
+        out << base::yamlNumber(model.depth_distortion_ratio[row * SensorNoiseModel::DISTORTION_COLUMNS + column]);
+      out << YAML::EndSeq;
+    }
+    out << YAML::EndSeq;
+  }
+  out << YAML::EndMap;
+}
+
+[[noreturn]] void refuse(const std::string& what, const std::string& reason)
+{
+  throw Error(StatusCode::BAD_INPUT, what + ": " + reason);
+}
+
+std::string knownKeys()
+{
+  std::string keys;
+  for (const NoiseModelField& field : NOISE_MODEL_FIELDS)
+    keys += std::string(field.key) + ", ";
+  return keys + DISTORTION;
+}
+
+SensorNoiseModel::Distortion distortionFrom(const YAML::Node& node, const std::string& what)
+{
+  SensorNoiseModel::Distortion distortion{};
+  bool fits = node.IsSequence() && node.size() == SensorNoiseModel::DISTORTION_ROWS;
+  for (std::size_t row = 0; fits && row < node.size(); ++row)
+  {
+    fits = node[row].IsSequence() && node[row].size() == SensorNoiseModel::DISTORTION_COLUMNS;
+    for (std::size_t column = 0; fits && column < node[row].size(); ++column)
+      distortion[row * SensorNoiseModel::DISTORTION_COLUMNS + column] = node[row][column].as<double>();
+  }
+  if (!fits)
+    refuse(what, std::string(DISTORTION) + " must be " + std::to_string(SensorNoiseModel::DISTORTION_ROWS) +
+                     " rows of " + std::to_string(SensorNoiseModel::DISTORTION_COLUMNS) + " numbers");
+  return distortion;
+}
+
+SensorNoiseModel modelFrom(const YAML::Node& node, const std::string& what)
+{
+  if (!node.IsMap())
+    refuse(what, "must be a map of coefficients; known are " + knownKeys());
+  SensorNoiseModel model;
+  for (const auto& entry : node)
+  {
+    const auto key = entry.first.as<std::string>();
+    const auto* field = std::find_if(std::begin(NOISE_MODEL_FIELDS), std::end(NOISE_MODEL_FIELDS),
+                                     [&](const NoiseModelField& known) { return key == known.key; });
+    if (field != std::end(NOISE_MODEL_FIELDS))
+      model.*field->value = entry.second.as<double>();
+    else if (key == DISTORTION)
+      model.depth_distortion_ratio = distortionFrom(entry.second, what);
+    else
+      refuse(what, "'" + key + "' is no coefficient of the noise model; known are " + knownKeys());
+  }
+  try
+  {
+    return base::checked(model);
+  }
+  catch (const Error& error)
+  {
+    refuse(what, error.what());
+  }
+}
+
+/// Calls `read` with the parsed text; what yaml-cpp throws becomes BAD_INPUT.
+template <typename Read>
+auto parsed(const std::string& text, const std::string& what, const Read& read)
+{
+  try
+  {
+    return read(YAML::Load(text));
+  }
+  catch (const YAML::Exception& error)
+  {
+    refuse(what, error.what());
+  }
+}
+
+}  // namespace
+
+SensorNoiseModel loadNoiseModel(const std::string& path)
+{
+  return parsed(base::readTextFile(path), path, [&](const YAML::Node& node) { return modelFrom(node, path); });
+}
+
+void saveNoiseModel(const std::string& path, const SensorNoiseModel& model, const std::string& comment)
+{
+  std::string text;
+  std::istringstream lines(comment);
+  for (std::string line; std::getline(lines, line);)
+    text += line.empty() ? "#\n" : "# " + line + "\n";
+  YAML::Emitter out;
+  emit(out, model);
+  base::writeTextFile(path, text + out.c_str() + "\n");
+}
+
+std::string calibrationText(const SensorCalibration& calibration)
+{
+  YAML::Emitter out;
+  out << YAML::BeginMap << YAML::Key << NOISE_MODEL << YAML::Value;
+  emit(out, calibration.noise_model);
+  out << YAML::Key << COLOR_OFFSET << YAML::Value << YAML::Flow << YAML::BeginSeq
+      << base::yamlNumber(calibration.color_offset_px.x()) << base::yamlNumber(calibration.color_offset_px.y())
+      << YAML::EndSeq << YAML::EndMap;
+  return std::string(out.c_str()) + "\n";
+}
+
+SensorCalibration calibrationFromText(const std::string& text, const std::string& what)
+{
+  return parsed(text, what,
+                [&](const YAML::Node& node)
+                {
+                  if (!node.IsMap())
+                    refuse(what, "must be a map of noise_model and color_offset_px");
+                  SensorCalibration calibration;
+                  for (const auto& entry : node)
+                  {
+                    const auto key = entry.first.as<std::string>();
+                    if (key == NOISE_MODEL)
+                      calibration.noise_model = modelFrom(entry.second, what);
+                    else if (key == COLOR_OFFSET && entry.second.IsSequence() && entry.second.size() == 2)
+                      calibration.color_offset_px = { entry.second[0].as<double>(), entry.second[1].as<double>() };
+                    else
+                      refuse(what, "'" + key + "' is not known or not of the form it must have");
+                  }
+                  if (!calibration.color_offset_px.allFinite())
+                    refuse(what, "color_offset_px is not finite");
+                  return calibration;
+                });
+}
+
+}  // namespace object_modelling::rgbd

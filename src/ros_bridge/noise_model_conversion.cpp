@@ -1,0 +1,64 @@
+#include "object_modelling/ros_bridge/noise_model_conversion.h"
+
+#include <algorithm>
+
+#include "object_modelling/base/options.h"
+
+namespace object_modelling::ros_bridge
+{
+namespace
+{
+/// The coefficients of model and message go by the same names; `copy` gets both for each.
+template <typename Model, typename Message, typename Copy>
+void forEachCoefficient(Model& model, Message& message, const Copy& copy)
+{
+  copy(model.axial_constant_m, message.axial_constant_m);
+  copy(model.axial_quadratic_per_m, message.axial_quadratic_per_m);
+  copy(model.axial_vertex_m, message.axial_vertex_m);
+  copy(model.axial_grazing_m_sqrt_m, message.axial_grazing_m_sqrt_m);
+  copy(model.axial_grazing_from_rad, message.axial_grazing_from_rad);
+  copy(model.lateral_constant_px, message.lateral_constant_px);
+  copy(model.lateral_grazing_px, message.lateral_grazing_px);
+  copy(model.depth_bias_constant_m, message.depth_bias_constant_m);
+  copy(model.depth_bias_linear_ratio, message.depth_bias_linear_ratio);
+  copy(model.depth_bias_quadratic_per_m, message.depth_bias_quadratic_per_m);
+}
+}  // namespace
+
+object_modelling::SensorNoiseModel toMessage(const rgbd::SensorNoiseModel& model)
+{
+  object_modelling::SensorNoiseModel message;
+  forEachCoefficient(model, message, [](double from, double& to) { to = from; });
+  if (model.depth_distortion_ratio != rgbd::SensorNoiseModel::Distortion{})
+    message.depth_distortion_ratio.assign(model.depth_distortion_ratio.begin(), model.depth_distortion_ratio.end());
+  return message;
+}
+
+object_modelling::SensorCalibration toMessage(const rgbd::SensorCalibration& calibration)
+{
+  object_modelling::SensorCalibration message;
+  message.noise_model = toMessage(calibration.noise_model);
+  message.color_offset_px[0] = calibration.color_offset_px.x();
+  message.color_offset_px[1] = calibration.color_offset_px.y();
+  return message;
+}
+
+rgbd::SensorNoiseModel fromMessage(const object_modelling::SensorNoiseModel& message)
+{
+  rgbd::SensorNoiseModel model;
+  forEachCoefficient(model, message, [](double& to, double from) { to = from; });
+  const std::vector<double>& distortion = message.depth_distortion_ratio;
+  if (!distortion.empty() && distortion.size() != model.depth_distortion_ratio.size())
+    throw base::Error(base::StatusCode::INVALID_ARGUMENT,
+                      "noise_model: depth_distortion_ratio has " + std::to_string(distortion.size()) +
+                          " knots; it must have " + std::to_string(model.depth_distortion_ratio.size()) + " or none");
+  std::copy(distortion.begin(), distortion.end(), model.depth_distortion_ratio.begin());
+  return base::checked(model);
+}
+
+rgbd::SensorCalibration fromMessage(const object_modelling::SensorCalibration& message)
+{
+  return { fromMessage(message.noise_model), { message.color_offset_px[0], message.color_offset_px[1] } };
+}
+
+}  // namespace object_modelling::ros_bridge

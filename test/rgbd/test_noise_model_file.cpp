@@ -1,0 +1,94 @@
+#include "object_modelling/rgbd/noise_model_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "object_modelling/base/status.h"
+#include "support/temp_dir.h"
+
+namespace object_modelling::rgbd
+{
+namespace
+{
+SensorNoiseModel unusual()
+{
+  SensorNoiseModel model;
+  model.axial_constant_m = 0.002 + 1.0 / 3e4;
+  model.lateral_grazing_px = 0.05;
+  model.depth_bias_quadratic_per_m = -1.0 / 700;
+  model.depth_distortion_ratio[10] = 1.0 / 3000;
+  return model;
+}
+
+base::Status statusOf(const std::string& path)
+{
+  try
+  {
+    loadNoiseModel(path);
+  }
+  catch (const base::Error& error)
+  {
+    return error.status();
+  }
+  return {};
+}
+
+class NoiseModelFile : public ::testing::Test
+{
+protected:
+  std::string write(const std::string& text) const
+  {
+    std::ofstream(path_) << text;
+    return path_;
+  }
+  test_support::TempDir folder_;
+  std::string path_ = folder_.path("noise.yaml");
+};
+
+TEST_F(NoiseModelFile, RoundTripIsExact)
+{
+  saveNoiseModel(path_, unusual(), "measured on\n\na wall");
+  EXPECT_TRUE(loadNoiseModel(path_) == unusual());
+  saveNoiseModel(path_, SensorNoiseModel(), "");
+  EXPECT_TRUE(loadNoiseModel(path_) == SensorNoiseModel());
+}
+
+TEST_F(NoiseModelFile, WhatIsNotThereHasItsDefault)
+{
+  const SensorNoiseModel model = loadNoiseModel(write("axial_constant_m: 0.003\n"));
+  EXPECT_EQ(model.axial_constant_m, 0.003);
+  EXPECT_EQ(model.axial_quadratic_per_m, SensorNoiseModel().axial_quadratic_per_m);
+}
+
+TEST_F(NoiseModelFile, RefusesWhatItDoesNotKnow)
+{
+  base::Status status = statusOf(write("axial_constant: 0.003\n"));
+  EXPECT_EQ(status.code, base::StatusCode::BAD_INPUT);
+  EXPECT_NE(status.message.find("'axial_constant'"), std::string::npos) << status.message;
+  EXPECT_NE(status.message.find("axial_constant_m"), std::string::npos) << status.message;
+  status = statusOf(write("axial_constant_m: 0\nlateral_constant_px: -1\n"));
+  EXPECT_EQ(status.code, base::StatusCode::BAD_INPUT);
+  EXPECT_NE(status.message.find("axial_constant_m = 0"), std::string::npos) << status.message;
+  EXPECT_NE(status.message.find("lateral_constant_px = -1"), std::string::npos) << status.message;
+  for (const char* text : { "axial_constant_m: many\n", "axial_constant_m: .nan\n", "[1, 2]\n", "a: [\n", "7\n",
+                            "depth_distortion_ratio: [1, 2]\n" })
+    EXPECT_EQ(statusOf(write(text)).code, base::StatusCode::BAD_INPUT) << text;
+  EXPECT_EQ(statusOf(folder_.path("none.yaml")).code, base::StatusCode::NOT_FOUND);
+}
+
+TEST(CalibrationText, RoundTripIsExact)
+{
+  const SensorCalibration calibration{ unusual(), { 1.0 / 3, -0.1 } };
+  EXPECT_TRUE(calibrationFromText(calibrationText(calibration), "test") == calibration);
+  EXPECT_TRUE(calibrationFromText("{}", "test") == SensorCalibration());
+}
+
+TEST(CalibrationText, RefusesDamage)
+{
+  for (const char* text : { "", "color_offset_px: 1", "color_offset_px: [.nan, 0]", "gain: 2", "noise_model: 3", "{" })
+    EXPECT_THROW(calibrationFromText(text, "test"), base::Error) << text;
+}
+
+}  // namespace
+}  // namespace object_modelling::rgbd
