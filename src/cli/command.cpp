@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "object_modelling/keyframes/session.h"
+#include "object_modelling/rgbd/noise_model_file.h"
 
 namespace object_modelling::cli
 {
@@ -20,6 +21,8 @@ void addRecordOptions(CLI::App& command, RecordArguments* arguments)
       .add_option("--seed", arguments->seed,
                   "Seed of all random choices: the same recording and seed give the same result")
       ->capture_default_str();
+  command.add_option("--noise-model", arguments->noise_model,
+                     "YAML of the sensor's noise and depth bias, from calibrate_noise; without it a Kinect's");
 }
 
 pipeline::RecordOptions recordOptions(const RecordArguments& arguments)
@@ -27,6 +30,8 @@ pipeline::RecordOptions recordOptions(const RecordArguments& arguments)
   pipeline::RecordOptions options;
   options.tracker.reference = arguments.object_reference ? tracking::Reference::OBJECT : tracking::Reference::SCENE;
   options.tracker.seed = arguments.seed;
+  if (!arguments.noise_model.empty())
+    options.frame.noise_model = rgbd::loadNoiseModel(arguments.noise_model);
   return options;
 }
 

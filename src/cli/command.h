@@ -26,6 +26,7 @@ using Command = std::function<CommandOutput(base::JobControl& control)>;
 /// Each adds one subcommand to `app`, and sets `*chosen` when that one has been parsed.
 void addTrackCommand(CLI::App& app, Command* chosen);
 void addModelCommand(CLI::App& app, Command* chosen);
+void addCalibrateNoiseCommand(CLI::App& app, Command* chosen);
 void addInfoCommand(CLI::App& app, Command* chosen);
 
 /// Options that track and model share.
@@ -33,6 +34,7 @@ struct RecordArguments
 {
   bool object_reference = false;
   std::uint64_t seed = 1;
+  std::string noise_model;  ///< path; empty: the default
 };
 void addRecordOptions(CLI::App& command, RecordArguments* arguments);
 pipeline::RecordOptions recordOptions(const RecordArguments& arguments);

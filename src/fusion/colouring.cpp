@@ -5,8 +5,6 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "object_modelling/rgbd/sensor_noise_model.h"
-
 namespace object_modelling::fusion
 {
 namespace
@@ -53,7 +51,8 @@ std::vector<Sample> bestSamples(const std::vector<View>& views, const std::vecto
     const Projection at = project(view, surfel.point);
     if (!at.inside)
       continue;
-    const double tolerance_m = consistency_sigmas * std::hypot(surfel.sigma_m, rgbd::axialSigma_m(at.z_m, 0));
+    const double tolerance_m =
+        consistency_sigmas * std::hypot(surfel.sigma_m, view.frame->noise_model.axialSigma_m(at.z_m, 0));
     const float rim_px = rim_distances_px[i].at<float>(at.row, at.column);
     if (!(std::abs(view.frame->depth_m.at<float>(at.row, at.column) - at.z_m) <= tolerance_m) || rim_px <= 0)
       continue;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "object_modelling/rgbd/sensor_noise_model.h"
-
 namespace object_modelling::fusion
 {
 namespace
@@ -31,7 +29,7 @@ Votes castVotes(const std::vector<View>& views, const SurfacePoint& surface, dou
     const Projection at = project(view, surface.point);
     if (!at.inside)
       continue;
-    const double sigma_m = std::hypot(surface.axial_sigma_m, rgbd::axialSigma_m(at.z_m, 0));
+    const double sigma_m = std::hypot(surface.axial_sigma_m, view.frame->noise_model.axialSigma_m(at.z_m, 0));
     const auto tolerance_m = static_cast<float>(consistency_sigmas * sigma_m);
     if (seesThrough(view, surface.point, tolerance_m))
     {

@@ -26,6 +26,7 @@ rgbd::Frame cropToMask(const rgbd::Frame& frame, cv::Rect* roi)
   crop.depth_m = frame.depth_m(*roi);
   crop.object_mask = frame.object_mask(*roi);
   crop.camera = frame.camera;
+  crop.noise_model = frame.noise_model;
   crop.camera.width = roi->width;
   crop.camera.height = roi->height;
   crop.camera.cx -= roi->x;
@@ -61,6 +62,7 @@ std::vector<Observation> collectObservations(const rgbd::Keyframe& keyframe, int
   const cv::Mat normals = rgbd::computeNormals(crop);
   const cv::Mat weights = rgbd::observationWeights(crop, normals, rgbd::distanceToEdges_px(edges), options.weight);
 
+  const rgbd::SensorNoiseModel& noise_model = crop.noise_model;
   const cv::Mat smooth_depth_m = smoothed(crop.depth_m);
   const Eigen::Isometry3f T_session_camera = keyframe.T_session_camera.cast<float>();
   std::vector<Observation> observations;
@@ -83,8 +85,8 @@ std::vector<Observation> collectObservations(const rgbd::Keyframe& keyframe, int
       observation.weight = weight;
       observation.view = view;
       const double z_m = smooth_depth_m.at<float>(v, u);
-      observation.axial_sigma_m = static_cast<float>(rgbd::axialSigma_m(z_m, theta_rad));
-      observation.lateral_sigma_m = static_cast<float>(rgbd::lateralSigma_m(z_m, theta_rad, crop.camera.fx));
+      observation.axial_sigma_m = static_cast<float>(noise_model.axialSigma_m(z_m, theta_rad));
+      observation.lateral_sigma_m = static_cast<float>(noise_model.lateralSigma_m(z_m, theta_rad, crop.camera.fx));
       observation.sigma_m =
           std::hypot(observation.axial_sigma_m * cosine, observation.lateral_sigma_m * std::sqrt(1 - cosine * cosine));
       observations.push_back(observation);

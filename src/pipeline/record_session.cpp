@@ -103,6 +103,7 @@ RecordReport recordSession(source::FrameSource& source, const keyframes::Session
   keyframes::Session recorded = session;
   recorded.camera_frame_id = source.frameId();
   recorded.reference_is_object = object_reference;
+  recorded.calibration.noise_model = options.frame.noise_model;
   SessionTransaction transaction(store, recorded);
 
   RecordReport report;

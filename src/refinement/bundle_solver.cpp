@@ -10,7 +10,6 @@
 
 #include "cost_functions.h"
 #include "object_modelling/geometry/transform.h"
-#include "object_modelling/rgbd/sensor_noise_model.h"
 #include "sensor_blocks.h"
 
 namespace object_modelling::refinement
@@ -97,9 +96,10 @@ BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, in
                              sensor.color_offset_px.data(), sensor.intrinsics.data());
     if (sight.depth_m > 0)
     {
-      problem.AddResidualBlock(
-          new DepthCost(camera, sight.depth_m, sight.depth_slope_m_px, rgbd::axialSigma_m(sight.depth_m, 0)),
-          loss.get(), motion, landmark, sensor.color_offset_px.data(), &sensor.depth_growth, &sensor.depth_offset_m);
+      const double sigma_m = keyframes[sight.keyframe].frame.noise_model.axialSigma_m(sight.depth_m, 0);
+      problem.AddResidualBlock(new DepthCost(camera, sight.depth_m, sight.depth_slope_m_px, sigma_m), loss.get(),
+                               motion, landmark, sensor.color_offset_px.data(), &sensor.depth_growth,
+                               &sensor.depth_offset_m);
     }
     solver_options.linear_solver_ordering->AddElementToGroup(landmark, 0);
     solver_options.linear_solver_ordering->AddElementToGroup(motion, 1);
@@ -167,10 +167,11 @@ double robustCost(const std::vector<rgbd::Keyframe>& keyframes, double loss_widt
   double cost = 0;
   for (const Sight& sight : state.map.sights)
   {
-    const SightError error = sightError(sight, keyframes[sight.keyframe].frame.camera, state);
+    const rgbd::Frame& frame = keyframes[sight.keyframe].frame;
+    const SightError error = sightError(sight, frame.camera, state);
     cost += loss(std::min(error.pixel_px / sight.sigma_px, 1e3));
     if (sight.depth_m > 0)
-      cost += loss(error.depth_m / rgbd::axialSigma_m(sight.depth_m, 0));
+      cost += loss(error.depth_m / frame.noise_model.axialSigma_m(sight.depth_m, 0));
   }
   return cost;
 }

@@ -7,7 +7,6 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "object_modelling/rgbd/sensor_noise_model.h"
 #include "object_modelling/rgbd/surface_fit.h"
 
 namespace object_modelling::refinement
@@ -84,10 +83,10 @@ bool place(const std::vector<Sight>& sights, const std::vector<rgbd::Keyframe>& 
   {
     if (!(sight.depth_m > 0))
       continue;
-    const geometry::PinholeCamera& camera = keyframes[sight.keyframe].frame.camera;
+    const rgbd::Frame& frame = keyframes[sight.keyframe].frame;
     points.push_back(T_session_camera[sight.keyframe] *
-                     camera.unproject(sight.pixel.x(), sight.pixel.y(), sight.depth_m));
-    gate_m = std::max(gate_m, 4 * rgbd::axialSigma_m(sight.depth_m, 0));
+                     frame.camera.unproject(sight.pixel.x(), sight.pixel.y(), sight.depth_m));
+    gate_m = std::max(gate_m, 4 * frame.noise_model.axialSigma_m(sight.depth_m, 0));
   }
   if (points.empty())
     return intersectRays(sights, keyframes, T_session_camera, point);

@@ -136,7 +136,8 @@ bool supports(const VerifiedLink& link, const std::vector<rgbd::Keyframe>& keyfr
                       point.sigma_b_px });
   }
   const Eigen::Isometry3d T_a_b = T_session_camera[link.a].inverse() * T_session_camera[link.b];
-  const std::vector<int> inliers = inliersOf(T_a_b, pairs, camera_a, camera_b, SUPPORT_GATE_SIGMAS);
+  const std::vector<int> inliers =
+      inliersOf(T_a_b, pairs, keyframes[link.a].frame, keyframes[link.b].frame, SUPPORT_GATE_SIGMAS);
   return static_cast<double>(inliers.size()) >= MIN_SUPPORT_RATIO * static_cast<double>(pairs.size());
 }
 

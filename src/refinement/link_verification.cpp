@@ -5,7 +5,6 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "object_modelling/rgbd/sensor_noise_model.h"
 #include "relative_pose.h"
 
 namespace object_modelling::refinement
@@ -74,7 +73,7 @@ double violationRatio(const rgbd::Frame& from, const rgbd::Frame& onto, const Ei
         continue;
       const int x = static_cast<int>(std::lround(pixel.x())), y = static_cast<int>(std::lround(pixel.y()));
       const float z = onto.depthAt_m(x, y);
-      const double tolerance_m = 4 * rgbd::axialSigma_m(p.z(), 0) + POSE_ALLOWANCE_RATIO * p.z();
+      const double tolerance_m = 4 * onto.noise_model.axialSigma_m(p.z(), 0) + POSE_ALLOWANCE_RATIO * p.z();
       const bool off_object = object_only && !insideMask(onto, x, y) && !(z < p.z() - tolerance_m);
       if (off_object || z > p.z() + tolerance_m)
         ++violations;
@@ -109,7 +108,7 @@ std::optional<VerifiedLink> verifyLink(const std::vector<rgbd::Keyframe>& keyfra
   const rgbd::Frame& frame_b = keyframes[b].frame;
   RelativePoseOptions pose_options;
   pose_options.seed = pairSeed(options.seed, keyframes[a].id, keyframes[b].id);
-  const RelativePose pose = estimateRelativePose(pairs, frame_a.camera, frame_b.camera, pose_options);
+  const RelativePose pose = estimateRelativePose(pairs, frame_a, frame_b, pose_options);
   if (!pose.found || pose.inliers.size() < inliers_needed || !spread(pairs, pose.inliers))
     return std::nullopt;
   if (violationRatio(frame_b, frame_a, pose.T_a_b, options.object_only) > options.max_violation_ratio ||

@@ -5,7 +5,6 @@
 #include <Eigen/Cholesky>
 
 #include "cost_functions.h"
-#include "object_modelling/rgbd/sensor_noise_model.h"
 #include "sensor_blocks.h"
 #include "so3.h"
 
@@ -114,7 +113,7 @@ std::vector<geometry::Matrix6d> poseCovariances(const std::vector<rgbd::Keyframe
                { offset, sensor.intrinsics.data(), nullptr }, loss_width_sigmas, 2, &equations, &sum);
     if (sight.depth_m > 0)
     {
-      const double sigma_m = rgbd::axialSigma_m(sight.depth_m, 0);
+      const double sigma_m = keyframes[sight.keyframe].frame.noise_model.axialSigma_m(sight.depth_m, 0);
       accumulate(DepthCost(&cameras[sight.keyframe], sight.depth_m, sight.depth_slope_m_px, sigma_m), landmark,
                  { offset, &sensor.depth_growth, &sensor.depth_offset_m }, loss_width_sigmas, 1, &equations, &sum);
     }

@@ -8,7 +8,6 @@
 #include <Eigen/Cholesky>
 
 #include "object_modelling/geometry/transform.h"
-#include "object_modelling/rgbd/sensor_noise_model.h"
 #include "so3.h"
 
 namespace object_modelling::refinement
@@ -27,14 +26,14 @@ struct Prepared
   std::vector<double> gate_squared_m2;
 };
 
-Prepared prepare(const std::vector<PointPair>& pairs, const geometry::PinholeCamera& camera_a,
-                 const geometry::PinholeCamera& camera_b, double gate_sigmas)
+Prepared prepare(const std::vector<PointPair>& pairs, const rgbd::Frame& frame_a, const rgbd::Frame& frame_b,
+                 double gate_sigmas)
 {
   Prepared result;
   for (const PointPair& pair : pairs)
   {
-    result.C_a.push_back(backProjectionCovariance(pair.p_a, camera_a, pair.sigma_a_px));
-    result.C_b.push_back(backProjectionCovariance(pair.p_b, camera_b, pair.sigma_b_px));
+    result.C_a.push_back(backProjectionCovariance(pair.p_a, frame_a, pair.sigma_a_px));
+    result.C_b.push_back(backProjectionCovariance(pair.p_b, frame_b, pair.sigma_b_px));
     // A triple of noisy points predicts the others worse than the noise alone: twice the variance.
     result.gate_squared_m2.push_back(2 * gate_sigmas * gate_sigmas *
                                      (result.C_a.back().trace() + result.C_b.back().trace()) / 3);
@@ -120,26 +119,25 @@ void refineStep(const std::vector<PointPair>& pairs, const Prepared& prepared, d
 
 }  // namespace
 
-Eigen::Matrix3d backProjectionCovariance(const Eigen::Vector3d& p_camera, const geometry::PinholeCamera& camera,
-                                         double sigma_px)
+Eigen::Matrix3d backProjectionCovariance(const Eigen::Vector3d& p_camera, const rgbd::Frame& frame, double sigma_px)
 {
   const double z = p_camera.z();
-  const Eigen::Vector3d along = p_camera / z * rgbd::axialSigma_m(z, 0);
-  const double lateral_x = z * sigma_px / camera.fx, lateral_y = z * sigma_px / camera.fy;
+  const Eigen::Vector3d along = p_camera / z * frame.noise_model.axialSigma_m(z, 0);
+  const double lateral_x = z * sigma_px / frame.camera.fx, lateral_y = z * sigma_px / frame.camera.fy;
   Eigen::Matrix3d C = along * along.transpose();
   C(0, 0) += lateral_x * lateral_x;
   C(1, 1) += lateral_y * lateral_y;
   return C;
 }
 
-RelativePose estimateRelativePose(const std::vector<PointPair>& pairs, const geometry::PinholeCamera& camera_a,
-                                  const geometry::PinholeCamera& camera_b, const RelativePoseOptions& options)
+RelativePose estimateRelativePose(const std::vector<PointPair>& pairs, const rgbd::Frame& frame_a,
+                                  const rgbd::Frame& frame_b, const RelativePoseOptions& options)
 {
   RelativePose result;
   const int count = static_cast<int>(pairs.size());
   if (count < 4)
     return result;
-  const Prepared prepared = prepare(pairs, camera_a, camera_b, options.gate_sigmas);
+  const Prepared prepared = prepare(pairs, frame_a, frame_b, options.gate_sigmas);
   std::mt19937_64 random(options.seed);
   std::uniform_int_distribution<int> pick(0, count - 1);
   int best = 3;
@@ -175,10 +173,9 @@ RelativePose estimateRelativePose(const std::vector<PointPair>& pairs, const geo
 }
 
 std::vector<int> inliersOf(const Eigen::Isometry3d& T_a_b, const std::vector<PointPair>& pairs,
-                           const geometry::PinholeCamera& camera_a, const geometry::PinholeCamera& camera_b,
-                           double gate_sigmas)
+                           const rgbd::Frame& frame_a, const rgbd::Frame& frame_b, double gate_sigmas)
 {
-  return inliersOf(T_a_b, pairs, prepare(pairs, camera_a, camera_b, gate_sigmas), gate_sigmas);
+  return inliersOf(T_a_b, pairs, prepare(pairs, frame_a, frame_b, gate_sigmas), gate_sigmas);
 }
 
 }  // namespace object_modelling::refinement

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "object_modelling/geometry/pinhole_camera.h"
+#include "object_modelling/rgbd/frame.h"
 
 namespace object_modelling::refinement
 {
@@ -34,16 +34,14 @@ struct RelativePose
 /// Rigid motion between two views from 3-D point pairs: seeded RANSAC over triples, then iteratively reweighted least
 /// squares on the full covariance of every back-projected point (lateral from the pixel sigma, axial from the depth
 /// noise). Not found for fewer than 3 pairs or when no triple agrees with any other pair.
-RelativePose estimateRelativePose(const std::vector<PointPair>& pairs, const geometry::PinholeCamera& camera_a,
-                                  const geometry::PinholeCamera& camera_b, const RelativePoseOptions& options);
+RelativePose estimateRelativePose(const std::vector<PointPair>& pairs, const rgbd::Frame& frame_a,
+                                  const rgbd::Frame& frame_b, const RelativePoseOptions& options);
 
 /// Pairs within `gate_sigmas` of a given motion, ascending.
 std::vector<int> inliersOf(const Eigen::Isometry3d& T_a_b, const std::vector<PointPair>& pairs,
-                           const geometry::PinholeCamera& camera_a, const geometry::PinholeCamera& camera_b,
-                           double gate_sigmas);
+                           const rgbd::Frame& frame_a, const rgbd::Frame& frame_b, double gate_sigmas);
 
 /// Covariance of a point back-projected from its pixel and depth, in the optical frame.
-Eigen::Matrix3d backProjectionCovariance(const Eigen::Vector3d& p_camera, const geometry::PinholeCamera& camera,
-                                         double sigma_px);
+Eigen::Matrix3d backProjectionCovariance(const Eigen::Vector3d& p_camera, const rgbd::Frame& frame, double sigma_px);
 
 }  // namespace object_modelling::refinement

@@ -85,6 +85,7 @@ std::vector<std::string> FrameBuilderOptions::violations() const
   check.inRange("min_depth_ratio", min_depth_ratio, 0.0, 1.0);
   check.atLeast("min_depth_m", min_depth_m, 0.0);
   check.require("max_depth_m", max_depth_m > min_depth_m, "must be greater than min_depth_m");
+  check.include(noise_model.violations());
   return check.violations();
 }
 
@@ -120,6 +121,28 @@ FrameBuilder::Images FrameBuilder::rectify(const RawFrame& raw)
   return images;
 }
 
+void FrameBuilder::takeBiasOff(cv::Mat* depth_m)
+{
+  const SensorNoiseModel& model = options_.noise_model;
+  if (!model.correctsDepth())
+    return;
+  if (distortion_ratio_.size() != depth_m->size())
+  {
+    distortion_ratio_.create(depth_m->size(), CV_32FC1);
+    for (int v = 0; v < distortion_ratio_.rows; ++v)
+      for (int u = 0; u < distortion_ratio_.cols; ++u)
+        distortion_ratio_.at<float>(v, u) =
+            static_cast<float>(model.distortionAt_ratio(u, v, distortion_ratio_.cols, distortion_ratio_.rows));
+  }
+  for (int v = 0; v < depth_m->rows; ++v)
+  {
+    auto* row = depth_m->ptr<float>(v);
+    const auto* ratio = distortion_ratio_.ptr<float>(v);
+    for (int u = 0; u < depth_m->cols; ++u)
+      row[u] -= static_cast<float>(model.depthBias_m(row[u])) + ratio[u] * row[u];
+  }
+}
+
 base::Result<Frame> FrameBuilder::build(const RawFrame& raw)
 {
   base::Result<Frame> result;
@@ -136,6 +159,7 @@ base::Result<Frame> FrameBuilder::build(const RawFrame& raw)
   frame.depth_delay_s = raw.depth_stamp_s - raw.stamp_s;
   frame.camera = raw.camera;
   frame.camera.distortion.clear();
+  frame.noise_model = options_.noise_model;
   frame.depth_m = depthInMetres(images.depth, raw.depth_unit_m);
   const std::size_t count =
       clip(static_cast<float>(options_.min_depth_m), static_cast<float>(options_.max_depth_m), &frame.depth_m);
@@ -147,6 +171,7 @@ base::Result<Frame> FrameBuilder::build(const RawFrame& raw)
                              std::to_string(options_.max_depth_m) + " m: is the camera covered or too close?");
     return result;
   }
+  takeBiasOff(&frame.depth_m);
   if (images.color.channels() == 3)
   {
     frame.color_bgr = images.color;

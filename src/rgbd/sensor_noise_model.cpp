@@ -1,5 +1,6 @@
 #include "object_modelling/rgbd/sensor_noise_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -12,7 +13,6 @@ namespace
 {
 constexpr double RIGHT_ANGLE_RAD = M_PI / 2;
 constexpr double UNBOUNDED = std::numeric_limits<double>::infinity();
-const SensorNoiseModel DEFAULT_MODEL;
 }  // namespace
 
 double SensorNoiseModel::axialSigma_m(double z_m, double theta_rad) const
@@ -44,6 +44,18 @@ double SensorNoiseModel::depthBias_m(double z_m) const
   return depth_bias_constant_m + z_m * (depth_bias_linear_ratio + z_m * depth_bias_quadratic_per_m);
 }
 
+double SensorNoiseModel::distortionAt_ratio(double u_px, double v_px, int width_px, int height_px) const
+{
+  const double x = std::clamp(u_px / (width_px - 1), 0.0, 1.0) * (DISTORTION_COLUMNS - 1);
+  const double y = std::clamp(v_px / (height_px - 1), 0.0, 1.0) * (DISTORTION_ROWS - 1);
+  const int column = std::min(static_cast<int>(x), DISTORTION_COLUMNS - 2);
+  const int row = std::min(static_cast<int>(y), DISTORTION_ROWS - 2);
+  const double* knot = &depth_distortion_ratio[row * DISTORTION_COLUMNS + column];
+  const double a = x - column, b = y - row;
+  return (1 - b) * ((1 - a) * knot[0] + a * knot[1]) +
+         b * ((1 - a) * knot[DISTORTION_COLUMNS] + a * knot[DISTORTION_COLUMNS + 1]);
+}
+
 bool SensorNoiseModel::correctsDepth() const
 {
   return depth_bias_constant_m != 0 || depth_bias_linear_ratio != 0 || depth_bias_quadratic_per_m != 0 ||
@@ -66,19 +78,6 @@ std::vector<std::string> SensorNoiseModel::violations() const
   for (std::size_t i = 0; i < depth_distortion_ratio.size(); ++i)
     check.inRange("depth_distortion_ratio[" + std::to_string(i) + "]", depth_distortion_ratio[i], -0.2, 0.2);
   return check.violations();
-}
-
-double axialSigma_m(double z_m, double theta_rad)
-{
-  return DEFAULT_MODEL.axialSigma_m(z_m, theta_rad);
-}
-double lateralSigma_px(double theta_rad)
-{
-  return DEFAULT_MODEL.lateralSigma_px(theta_rad);
-}
-double lateralSigma_m(double z_m, double theta_rad, double focal_px)
-{
-  return DEFAULT_MODEL.lateralSigma_m(z_m, theta_rad, focal_px);
 }
 
 }  // namespace object_modelling::rgbd

@@ -4,12 +4,13 @@
 
 namespace object_modelling::segmentation
 {
-/// Depth and camera of the part of the frame inside `area`, without a copy.
+/// Depth, camera and noise model of the part of the frame inside `area`, without a copy.
 inline rgbd::Frame cropped(const rgbd::Frame& frame, const cv::Rect& area)
 {
   rgbd::Frame crop;
   crop.depth_m = frame.depth_m(area);
   crop.camera = frame.camera;
+  crop.noise_model = frame.noise_model;
   crop.camera.width = area.width;
   crop.camera.height = area.height;
   crop.camera.cx -= area.x;

@@ -2,18 +2,37 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "object_modelling/rgbd/sensor_noise_model.h"
+#include <mutex>
 
 namespace object_modelling::segmentation
 {
-const NoiseTable& NoiseTable::instance()
+namespace
 {
-  static const NoiseTable TABLE;
-  return TABLE;
+constexpr std::size_t KEPT_TABLES = 4;
+
+struct KeptTable
+{
+  rgbd::SensorNoiseModel model;
+  std::shared_ptr<const NoiseTable> table;
+};
+}  // namespace
+
+std::shared_ptr<const NoiseTable> NoiseTable::of(const rgbd::SensorNoiseModel& model)
+{
+  static std::mutex mutex;
+  static std::vector<KeptTable> kept;
+  const std::lock_guard<std::mutex> lock(mutex);
+  const auto found =
+      std::find_if(kept.begin(), kept.end(), [&](const KeptTable& table) { return table.model == model; });
+  if (found != kept.end())
+    return found->table;
+  if (kept.size() == KEPT_TABLES)
+    kept.erase(kept.begin());
+  kept.push_back({ model, std::make_shared<const NoiseTable>(model) });
+  return kept.back().table;
 }
 
-NoiseTable::NoiseTable() : sigma_(ROWS * COLUMNS)
+NoiseTable::NoiseTable(const rgbd::SensorNoiseModel& model) : sigma_(ROWS * COLUMNS)
 {
   constexpr double MAX_THETA_RAD = 1.4835298641951802;  // 85 deg
   for (int row = 0; row < ROWS; ++row)
@@ -21,7 +40,7 @@ NoiseTable::NoiseTable() : sigma_(ROWS * COLUMNS)
     {
       const double z_m = (row + 0.5) / PER_METRE;
       const double theta_rad = std::min(MAX_THETA_RAD, std::acos((column + 0.5) / COLUMNS));
-      sigma_[row * COLUMNS + column] = static_cast<float>(rgbd::axialSigma_m(z_m, theta_rad));
+      sigma_[row * COLUMNS + column] = static_cast<float>(model.axialSigma_m(z_m, theta_rad));
     }
 }
 

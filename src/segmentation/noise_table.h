@@ -1,18 +1,24 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "object_modelling/rgbd/sensor_noise_model.h"
+
 namespace object_modelling::segmentation
 {
-/// rgbd::axialSigma_m as a table: it is asked for at every pixel, and its arc cosine and root would cost more than the
-/// rest of the segmentation. Immutable; one instance serves all threads.
+/// Axial sigma of a noise model as a table: it is asked for at every pixel, and its arc cosine and root would cost more
+/// than the rest of the segmentation. Immutable: one instance serves all threads.
 class NoiseTable
 {
 public:
-  static const NoiseTable& instance();
+  explicit NoiseTable(const rgbd::SensorNoiseModel& model);
+
+  /// The table of a model. Those of the last few models are kept, for a frame's segmentation asks several times.
+  static std::shared_ptr<const NoiseTable> of(const rgbd::SensorNoiseModel& model);
 
   /// cos_theta in [0, 1], of the angle between normal and viewing ray; clamped at 85 deg, where the model diverges.
   float sigma_m(float z_m, float cos_theta) const
@@ -35,8 +41,6 @@ public:
   }
 
 private:
-  NoiseTable();
-
   static constexpr int PER_METRE = 100;
   static constexpr int ROWS = 8 * PER_METRE;
   static constexpr int COLUMNS = 128;

@@ -74,6 +74,7 @@ double ObjectVolume::meanVotes(const rgbd::Keyframe& keyframe, const cv::Mat& ma
 void ObjectVolume::removeContradicted(const rgbd::Keyframe& keyframe, const cv::Mat& others)
 {
   const rgbd::Frame& frame = keyframe.frame;
+  const std::shared_ptr<const NoiseTable> noise = NoiseTable::of(frame.noise_model);
   const Eigen::Isometry3d T_camera_session = keyframe.T_session_camera.inverse();
   for (Voxel& voxel : voxels_)
   {
@@ -85,8 +86,7 @@ void ObjectVolume::removeContradicted(const rgbd::Keyframe& keyframe, const cv::
       continue;
     const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
     const double behind_m = frame.depthAt_m(u, v) - p_camera.z();
-    const double tolerance_m =
-        2 * voxel_size_m_ + 3 * NoiseTable::instance().sigma_m(static_cast<float>(p_camera.z()), 0.7F);
+    const double tolerance_m = 2 * voxel_size_m_ + 3 * noise->sigma_m(static_cast<float>(p_camera.z()), 0.7F);
     const bool seen_through = behind_m > tolerance_m;
     const bool seen_as_other =
         !others.empty() && others.at<std::uint8_t>(v, u) != 0 && std::abs(behind_m) <= tolerance_m;

@@ -31,7 +31,7 @@ Heights heightsAt(const rgbd::Frame& frame, const geometry::Plane& plane_camera,
   const cv::Size size((frame.depth_m.cols + step - 1) / step, (frame.depth_m.rows + step - 1) / step);
   heights.level = cv::Mat::zeros(size, CV_8UC1);
   heights.below = cv::Mat::zeros(size, CV_8UC1);
-  const NoiseTable& noise = NoiseTable::instance();
+  const std::shared_ptr<const NoiseTable> noise = NoiseTable::of(frame.noise_model);
   const Eigen::Vector3f n = plane_camera.normal.cast<float>();
   const auto offset_m = static_cast<float>(plane_camera.offset_m);
   const auto sigmas = static_cast<float>(2 * noise_scale);
@@ -42,7 +42,7 @@ Heights heightsAt(const rgbd::Frame& frame, const geometry::Plane& plane_camera,
       if (!std::isfinite(p.z()))
         continue;
       const float height_m = n.dot(p) + offset_m;
-      const float gate_m = GATE_M + sigmas * noise.sigmaAlong_m(n, p);
+      const float gate_m = GATE_M + sigmas * noise->sigmaAlong_m(n, p);
       if (std::abs(height_m) <= gate_m)
         heights.level.at<std::uint8_t>(v, u) = 255;
       else if (height_m < -gate_m - STEP_M)

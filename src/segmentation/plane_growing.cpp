@@ -25,6 +25,7 @@ class PlaneGrower
 public:
   PlaneGrower(const WorkingImage& image, const PlaneGrowingOptions& options)
       : image_(image),
+        noise_(NoiseTable::of(image.frame.noise_model)),
         options_(options),
         cos_angle_(static_cast<float>(std::cos(options.angle_rad))),
         width_(image.frame.depth_m.cols),
@@ -58,7 +59,7 @@ private:
   /// Standard deviation of the point along its normal: noise and distortion.
   float sigmaAlongNormal_m(const Eigen::Vector3f& p, const Eigen::Vector3f& n) const
   {
-    const float noise_m = NoiseTable::instance().sigmaAlong_m(n, p);
+    const float noise_m = noise_->sigmaAlong_m(n, p);
     const float distortion_m = static_cast<float>(options_.distortion_ratio) * std::abs(n.dot(p));
     return std::sqrt(noise_m * noise_m + distortion_m * distortion_m);
   }
@@ -196,7 +197,7 @@ private:
         if (labels_.at<std::int16_t>(v, u) == label)
         {
           const Eigen::Vector3f p = image_.frame.point(u, v);
-          const double residual = (n.dot(p) + offset_m) / NoiseTable::instance().sigmaAlong_m(n, p);
+          const double residual = (n.dot(p) + offset_m) / noise_->sigmaAlong_m(n, p);
           sum += residual * residual;
           ++count;
         }
@@ -266,6 +267,7 @@ private:
   }
 
   const WorkingImage& image_;
+  std::shared_ptr<const NoiseTable> noise_;
   const PlaneGrowingOptions& options_;
   const float cos_angle_;
   const int width_, height_;

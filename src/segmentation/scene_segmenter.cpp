@@ -23,7 +23,7 @@ constexpr double MIN_CARRIED_RATIO = 0.5;
 std::vector<SupportedPlane> fullPlanes(const rgbd::Frame& frame, const WorkingImage& image, const GrownPlanes& planes,
                                        double distance_sigmas)
 {
-  const NoiseTable& noise = NoiseTable::instance();
+  const std::shared_ptr<const NoiseTable> noise = NoiseTable::of(frame.noise_model);
   const auto sigmas = static_cast<float>(distance_sigmas);
   std::vector<SupportedPlane> result;
   std::vector<Eigen::Vector4f> coefficients;
@@ -44,7 +44,7 @@ std::vector<SupportedPlane> fullPlanes(const rgbd::Frame& frame, const WorkingIm
       const Eigen::Vector3f p = frame.point(u, v);
       const Eigen::Vector4f& plane = coefficients[index];
       const Eigen::Vector3f n = plane.head<3>();
-      const float limit_m = sigmas * static_cast<float>(planes.planes[index].noise_scale) * noise.sigmaAlong_m(n, p);
+      const float limit_m = sigmas * static_cast<float>(planes.planes[index].noise_scale) * noise->sigmaAlong_m(n, p);
       if (!(std::abs(n.dot(p) + plane[3]) <= limit_m))
         continue;
       result[index].mask.at<std::uint8_t>(v, u) = 255;

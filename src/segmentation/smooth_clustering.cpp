@@ -85,7 +85,8 @@ void growFeet(const cv::Mat& depth_m, const cv::Mat& foreground, float ratio, cv
 cv::Mat pixelsAbove(const rgbd::Frame& frame, const geometry::Plane& plane_camera, const HeightLimits& limits,
                     double depth_step_ratio, const cv::Rect& area)
 {
-  const NoiseTable& noise = NoiseTable::instance();
+  const std::shared_ptr<const NoiseTable> table = NoiseTable::of(frame.noise_model);
+  const NoiseTable& noise = *table;
   const cv::Rect image(0, 0, frame.depth_m.cols, frame.depth_m.rows);
   const cv::Rect rect = area.area() > 0 ? area & image : image;
   const auto n = plane_camera.normal.cast<float>().eval();

@@ -45,6 +45,7 @@ std::optional<LocalSupport> refineSupport(const rgbd::Frame& frame, const geomet
                                           const cv::Rect& area, const cv::Mat& object)
 {
   constexpr int STRIDE = 2;
+  const std::shared_ptr<const NoiseTable> noise = NoiseTable::of(frame.noise_model);
   LocalSupport support{ known_camera, {}, 1 };
   for (const double gate_m : { GATE_M, GATE_M / 2 })
   {
@@ -58,7 +59,7 @@ std::optional<LocalSupport> refineSupport(const rgbd::Frame& frame, const geomet
         if (!std::isfinite(z) || (!object.empty() && object.at<std::uint8_t>(v, u) != 0))
           continue;
         const Eigen::Vector3f p = frame.point(u, v);
-        const float sigma_m = NoiseTable::instance().sigmaAlong_m(n, p);
+        const float sigma_m = noise->sigmaAlong_m(n, p);
         if (std::abs(n.dot(p) + offset_m) <= static_cast<float>(gate_m) + 2 * sigma_m)
           moments.add(p.cast<double>(), 1.0 / (static_cast<double>(sigma_m) * sigma_m));
       }

@@ -22,6 +22,7 @@ WorkingImage makeWorkingImage(const rgbd::Frame& frame, const cv::Mat& ignored)
     for (int u = 0; u < image.frame.depth_m.cols; ++u)
       to[u] = !ignored.empty() && ignored.at<std::uint8_t>(v * step, u * step) != 0 ? std::nanf("") : from[u * step];
   }
+  image.frame.noise_model = frame.noise_model;
   geometry::PinholeCamera& camera = image.frame.camera;
   camera = frame.camera;
   camera.width = image.frame.depth_m.cols;

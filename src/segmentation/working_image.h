@@ -11,7 +11,7 @@ namespace object_modelling::segmentation
 struct WorkingImage
 {
   int step = 1;
-  rgbd::Frame frame;  ///< depth and camera only
+  rgbd::Frame frame;  ///< depth, camera and noise model only
   cv::Mat normals;    ///< CV_32FC3
 };
 

@@ -103,7 +103,7 @@ geometry::Matrix6d noiseOf(const DenseResiduals& residuals, const DenseLevel& le
     const DenseResidual& s = residuals.all[i];
     if (s.has_depth)
     {
-      const float slope = averagedDepthSigma_m(s.q.z()) * level.fx / (NORMAL_NOISE_PX * s.q.z());
+      const float slope = averagedDepthSigma_m(level.noise_model, s.q.z()) * level.fx / (NORMAL_NOISE_PX * s.q.z());
       const float weight = slope * slope * depthWeight(s, residuals);
       const Eigen::Vector3f tangent = s.normal.unitOrthogonal();
       depth.add(s.q, tangent, 0, weight);

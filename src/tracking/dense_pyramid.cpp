@@ -142,6 +142,7 @@ DensePyramid::DensePyramid(const rgbd::Frame& frame, const std::vector<cv::Mat>&
     level.fy = static_cast<float>(frame.camera.fy) * scale;
     level.cx = static_cast<float>(frame.camera.cx) * scale;
     level.cy = static_cast<float>(frame.camera.cy) * scale;
+    level.noise_model = frame.noise_model;
     level.gray = gray_levels[i];
     level.depth_m = levels_.empty() ? reduceDepth(frame.depth_m, level.step, level.gray.size())
                                     : reduceDepth(levels_.back().depth_m, 2, level.gray.size());

@@ -17,6 +17,7 @@ struct DenseLevel
   cv::Mat gray;                          ///< CV_8UC1
   cv::Mat depth_m;                       ///< CV_32FC1, NaN where missing; mean over the neighbours on the same surface
   cv::Mat mask;                          ///< CV_8UC1: what counts; empty: all
+  rgbd::SensorNoiseModel noise_model;    ///< of the frame
 };
 
 /// What dense alignment needs of a frame: grey and depth at a quarter, an eighth and a sixteenth of VGA, finest first.

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "object_modelling/rgbd/sensor_noise_model.h"
-
 namespace object_modelling::tracking
 {
 namespace
@@ -96,9 +94,9 @@ double compensateExposure(std::vector<DenseResidual>* all)
 }
 }  // namespace
 
-float averagedDepthSigma_m(float z_m)
+float averagedDepthSigma_m(const rgbd::SensorNoiseModel& noise_model, float z_m)
 {
-  const auto noise_m = static_cast<float>(rgbd::axialSigma_m(z_m, 0)) * 0.7F;
+  const auto noise_m = static_cast<float>(noise_model.axialSigma_m(z_m, 0)) * 0.7F;
   const float systematic_m = SYSTEMATIC_DEPTH_RATIO * z_m;
   return std::sqrt(noise_m * noise_m + systematic_m * systematic_m);
 }
@@ -144,7 +142,7 @@ void observe(const DensePoints& points, const DenseLevel& level, const Eigen::Is
       if (foreshortening > MIN_FACING_COSINE)
       {
         ++residuals->with_depth;
-        const float sigma_m = averagedDepthSigma_m(s.q.z());
+        const float sigma_m = averagedDepthSigma_m(level.noise_model, s.q.z());
         s.depth_residual = -foreshortening * step_m;
         residuals->agreeing += std::abs(step_m) < AGREEMENT_SIGMAS * sigma_m + AGREEMENT_RATIO * s.q.z();
         s.depth_sigma = foreshortening * sigma_m;

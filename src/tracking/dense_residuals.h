@@ -36,7 +36,7 @@ struct DenseResiduals
 };
 
 /// Standard deviation of a difference of two depths, averaged over neighbours, along the optical axis.
-float averagedDepthSigma_m(float z_m);
+float averagedDepthSigma_m(const rgbd::SensorNoiseModel& noise_model, float z_m);
 
 /// Depth and intensity residuals, the exposure of the frame brought to that of the reference.
 void observe(const DensePoints& points, const DenseLevel& level, const Eigen::Isometry3d& T_camera_reference,

@@ -7,8 +7,6 @@
 
 #include <Eigen/Dense>
 
-#include "object_modelling/rgbd/sensor_noise_model.h"
-
 namespace object_modelling::tracking
 {
 namespace
@@ -17,9 +15,9 @@ constexpr double CONVERGED_STEP = 1e-7;  // m and rad
 constexpr double MIN_DEPTH_M = 0.05;
 
 /// Both the point and the measurement come from a depth image.
-double depthSigma_m(double z_m)
+double depthSigma_m(double z_m, const PoseEstimationOptions& options)
 {
-  return std::sqrt(2.0) * rgbd::axialSigma_m(z_m, 0);
+  return std::sqrt(2.0) * options.noise_model.axialSigma_m(z_m, 0);
 }
 
 /// Squared reprojection error; infinite behind the camera.
@@ -35,7 +33,7 @@ double squaredError_px(const Correspondence& correspondence, const Eigen::Vector
 /// and depth exposed at different times) says nothing of the landmark's pixel.
 bool depthCounts(const Correspondence& correspondence, double z_m, const PoseEstimationOptions& options)
 {
-  return std::abs(correspondence.depth_m - z_m) <= options.depth_gate_sigmas * depthSigma_m(z_m);
+  return std::abs(correspondence.depth_m - z_m) <= options.depth_gate_sigmas * depthSigma_m(z_m, options);
 }
 
 /// Hypotheses are told apart by both: landmarks whose measured depth contradicts count half.
@@ -95,7 +93,7 @@ NormalEquations linearise(const std::vector<Correspondence>& correspondences, co
     add(du, residual.x(), options.pixel_sigma_px);
     add(dv, residual.y(), options.pixel_sigma_px);
     if (depthCounts(correspondence, p.z(), options))
-      add(dp.row(2), p.z() - correspondence.depth_m, depthSigma_m(p.z()));
+      add(dp.row(2), p.z() - correspondence.depth_m, depthSigma_m(p.z(), options));
   }
   return equations;
 }

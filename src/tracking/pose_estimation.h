@@ -8,6 +8,7 @@
 #include "normal_equations.h"
 #include "object_modelling/geometry/pinhole_camera.h"
 #include "object_modelling/geometry/transform.h"
+#include "object_modelling/rgbd/sensor_noise_model.h"
 
 namespace object_modelling::tracking
 {
@@ -37,6 +38,7 @@ struct PoseEstimationOptions
   int max_hypotheses = 200;
   double confidence_ratio = 0.99;  ///< chance of having drawn one clean sample, at which RANSAC stops
   int max_iterations = 10;         ///< of the least squares
+  rgbd::SensorNoiseModel noise_model;
 };
 
 struct PoseEstimate

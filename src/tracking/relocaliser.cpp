@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "depth_sampling.h"
-#include "object_modelling/rgbd/sensor_noise_model.h"
 
 namespace object_modelling::tracking
 {
@@ -34,7 +33,7 @@ double depthAgreement(const rgbd::Frame& frame, const MapKeyframe& keyframe, con
       continue;
     ++checked;
     agreeing += std::abs(depth_m - p.z()) <
-                DEPTH_AGREEMENT_SIGMAS * rgbd::axialSigma_m(p.z(), 0) + DEPTH_AGREEMENT_RATIO * p.z();
+                DEPTH_AGREEMENT_SIGMAS * frame.noise_model.axialSigma_m(p.z(), 0) + DEPTH_AGREEMENT_RATIO * p.z();
   }
   return checked >= MIN_CHECKED_LANDMARKS ? static_cast<double>(agreeing) / checked : 0.0;
 }
@@ -70,6 +69,7 @@ Relocalisation relocalise(const rgbd::Frame& frame, const KeyframeMap& map,
   pose_options.max_reprojection_error_px = options.max_reprojection_error_px;
   pose_options.pixel_sigma_px = 1.0;
   pose_options.max_hypotheses = 500;
+  pose_options.noise_model = frame.noise_model;
   std::size_t most_matches = 0;
   int most_inliers = 0;
   int detections = 0;

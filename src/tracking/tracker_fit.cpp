@@ -23,11 +23,12 @@ int countTrusted(const std::vector<LandmarkMatch>& matches)
 }
 }  // namespace
 
-PoseEstimationOptions CameraTracker::Implementation::poseOptions() const
+PoseEstimationOptions CameraTracker::Implementation::poseOptions(const rgbd::Frame& frame) const
 {
   PoseEstimationOptions options;
   // The gate is given for a VGA image, where half a pixel is what patch refinement reaches.
   options.max_reprojection_error_px = options_.max_reprojection_error_px;
+  options.noise_model = frame.noise_model;
   return options;
 }
 
@@ -102,7 +103,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeNea
   else
     term.equations.A += geometry::Matrix6d::Identity() / (LOST_SIGMA * LOST_SIGMA);
   placement.pose =
-      refinePose(correspondencesOf(found.matches), view.frame.camera, T_session_camera, poseOptions(), &term);
+      refinePose(correspondencesOf(found.matches), view.frame.camera, T_session_camera, poseOptions(view.frame), &term);
   const bool landmarks_fit =
       placement.pose.valid && placement.pose.close_count >= options_.min_inliers &&
       placement.pose.inlier_count >= options_.min_inlier_ratio * static_cast<double>(found.matches.size());

@@ -90,7 +90,7 @@ private:
   double updateBlur(const rgbd::Frame& frame, const ImagePyramid& pyramid);
   std::uint64_t seed() const { return options_.seed * 1000003 + frame_count_; }
   bool objectOnly() const { return options_.reference == Reference::OBJECT; }
-  PoseEstimationOptions poseOptions() const;
+  PoseEstimationOptions poseOptions(const rgbd::Frame& frame) const;
 
   CameraTrackerOptions options_;
   KeyframeMap map_;

@@ -192,7 +192,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByF
                         last_inliers_[i].trusted });
   }
   const PoseEstimate rough = estimatePose(correspondencesOf(matches), frame.camera,
-                                          prediction.T_camera_session.inverse(), seed(), poseOptions());
+                                          prediction.T_camera_session.inverse(), seed(), poseOptions(frame));
   timer.stop();
   if (!rough.valid || rough.close_count < options_.min_inliers ||
       rough.inlier_count < options_.min_inlier_ratio * static_cast<double>(last_inliers_.size()))

@@ -150,7 +150,7 @@ TEST(BundleAdjustment, withstandsNoiseAndOutliers)
   {
     EXPECT_LT(residual.reprojection_rmse_after_px, residual.reprojection_rmse_before_px);
     EXPECT_NEAR(residual.reprojection_rmse_after_px, 0.65, 0.25);
-    EXPECT_NEAR(residual.depth_rmse_after_m, rgbd::axialSigma_m(0.58, 0), 0.0006);
+    EXPECT_NEAR(residual.depth_rmse_after_m, rgbd::SensorNoiseModel().axialSigma_m(0.58, 0), 0.0006);
     EXPECT_GT(residual.observation_count, 50);
   }
 }

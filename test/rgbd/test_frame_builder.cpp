@@ -73,6 +73,37 @@ TEST(FrameBuilder, FloatDepthAndRange)
   EXPECT_FLOAT_EQ(raw.depth.at<float>(0, 1), 9.0f);  // the sensor's image stays as it was
 }
 
+TEST(FrameBuilder, TakesTheBiasOffTheDepth)
+{
+  RawFrame raw = goodFrame();
+  raw.depth = cv::Mat(raw.color.size(), CV_16UC1, cv::Scalar(2000));
+  raw.depth.at<std::uint16_t>(0, 0) = 0;
+  FrameBuilderOptions options;
+  options.noise_model.depth_bias_constant_m = 0.001;
+  options.noise_model.depth_bias_linear_ratio = -0.002;
+  options.noise_model.depth_bias_quadratic_per_m = 0.003;
+  options.noise_model.depth_distortion_ratio.back() = 0.01;
+  const base::Result<Frame> result = FrameBuilder(options).build(raw);
+  ASSERT_TRUE(result.ok()) << result.status.message;
+  EXPECT_TRUE(result.value.noise_model == options.noise_model);
+  const cv::Mat& depth_m = result.value.depth_m;
+  EXPECT_TRUE(std::isnan(depth_m.at<float>(0, 0)));
+  EXPECT_NEAR(depth_m.at<float>(0, 5), 2 - 0.001 + 0.004 - 0.012, 1e-6);
+  EXPECT_NEAR(depth_m.at<float>(depth_m.rows - 1, depth_m.cols - 1), 2 - 0.001 + 0.004 - 0.012 - 0.02, 1e-6);
+  EXPECT_EQ(raw.depth.at<std::uint16_t>(5, 5), 2000);
+}
+
+TEST(FrameBuilder, WithoutBiasDepthStaysAsItIs)
+{
+  const base::Result<Frame> plain = FrameBuilder().build(goodFrame());
+  FrameBuilderOptions options;
+  options.noise_model.axial_constant_m = 0.01;
+  const base::Result<Frame> noisy = FrameBuilder(options).build(goodFrame());
+  EXPECT_EQ(cv::norm(plain.value.depth_m, noisy.value.depth_m, cv::NORM_INF), 0);
+  options.noise_model.axial_constant_m = -1;
+  EXPECT_THROW(FrameBuilder{ options }, base::Error);
+}
+
 TEST(FrameBuilder, MaskBecomesBlackAndWhite)
 {
   RawFrame raw = goodFrame();

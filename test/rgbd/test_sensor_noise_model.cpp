@@ -21,43 +21,87 @@ constexpr double DEG = M_PI / 180;
 TEST(AxialSigma, FrontalKnownAnswers)
 {
   // 1.2 mm + 1.9 mm (z - 0.4)^2, worked out by hand
-  EXPECT_NEAR(axialSigma_m(0.5, 0), 0.001219, 1e-12);
-  EXPECT_NEAR(axialSigma_m(1.0, 0), 0.001884, 1e-12);
-  EXPECT_NEAR(axialSigma_m(2.0, 0), 0.006064, 1e-12);
-  EXPECT_NEAR(axialSigma_m(0.4, 0), 0.0012, 1e-12);
+  EXPECT_NEAR(SensorNoiseModel().axialSigma_m(0.5, 0), 0.001219, 1e-12);
+  EXPECT_NEAR(SensorNoiseModel().axialSigma_m(1.0, 0), 0.001884, 1e-12);
+  EXPECT_NEAR(SensorNoiseModel().axialSigma_m(2.0, 0), 0.006064, 1e-12);
+  EXPECT_NEAR(SensorNoiseModel().axialSigma_m(0.4, 0), 0.0012, 1e-12);
 }
 
 TEST(AxialSigma, IsFlatUpTo60DegAndGrowsBeyond)
 {
-  EXPECT_DOUBLE_EQ(axialSigma_m(1, 60 * DEG), axialSigma_m(1, 0));
+  EXPECT_DOUBLE_EQ(SensorNoiseModel().axialSigma_m(1, 60 * DEG), SensorNoiseModel().axialSigma_m(1, 0));
   // 75 deg: 0.1 mm theta^2 / (pi/2 - theta)^2 = 0.1 mm * 25, divided by sqrt(z)
-  EXPECT_NEAR(axialSigma_m(0.5, 75 * DEG), 0.001219 + 0.0025 / std::sqrt(0.5), 1e-9);
-  EXPECT_NEAR(axialSigma_m(1.0, 75 * DEG), 0.001884 + 0.0025, 1e-9);
-  EXPECT_NEAR(axialSigma_m(2.0, 75 * DEG), 0.006064 + 0.0025 / std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(SensorNoiseModel().axialSigma_m(0.5, 75 * DEG), 0.001219 + 0.0025 / std::sqrt(0.5), 1e-9);
+  EXPECT_NEAR(SensorNoiseModel().axialSigma_m(1.0, 75 * DEG), 0.001884 + 0.0025, 1e-9);
+  EXPECT_NEAR(SensorNoiseModel().axialSigma_m(2.0, 75 * DEG), 0.006064 + 0.0025 / std::sqrt(2.0), 1e-9);
 }
 
 TEST(LateralSigma, KnownAnswers)
 {
-  EXPECT_DOUBLE_EQ(lateralSigma_px(0), 0.8);
-  EXPECT_NEAR(lateralSigma_px(45 * DEG), 0.835, 1e-12);
-  EXPECT_NEAR(lateralSigma_px(60 * DEG), 0.87, 1e-12);
+  EXPECT_DOUBLE_EQ(SensorNoiseModel().lateralSigma_px(0), 0.8);
+  EXPECT_NEAR(SensorNoiseModel().lateralSigma_px(45 * DEG), 0.835, 1e-12);
+  EXPECT_NEAR(SensorNoiseModel().lateralSigma_px(60 * DEG), 0.87, 1e-12);
 }
 
 TEST(LateralSigma, DepthComesInOnce)
 {
   // 0.8 px at f = 500 px: 1.6 mm per metre of depth; proportional, not quadratic
-  EXPECT_NEAR(lateralSigma_m(0.5, 0, 500), 0.0008, 1e-12);
-  EXPECT_NEAR(lateralSigma_m(1.0, 0, 500), 0.0016, 1e-12);
-  EXPECT_NEAR(lateralSigma_m(2.0, 0, 500), 0.0032, 1e-12);
+  EXPECT_NEAR(SensorNoiseModel().lateralSigma_m(0.5, 0, 500), 0.0008, 1e-12);
+  EXPECT_NEAR(SensorNoiseModel().lateralSigma_m(1.0, 0, 500), 0.0016, 1e-12);
+  EXPECT_NEAR(SensorNoiseModel().lateralSigma_m(2.0, 0, 500), 0.0032, 1e-12);
 }
 
 TEST(Sigmas, UnboundedFromARightAngleOn)
 {
   for (const double theta : { M_PI / 2, 2.0, M_PI })
   {
-    EXPECT_TRUE(std::isinf(axialSigma_m(1, theta)));
-    EXPECT_TRUE(std::isinf(lateralSigma_px(theta)));
+    EXPECT_TRUE(std::isinf(SensorNoiseModel().axialSigma_m(1, theta)));
+    EXPECT_TRUE(std::isinf(SensorNoiseModel().lateralSigma_px(theta)));
   }
+}
+
+TEST(DepthDistortion, IsBilinearBetweenItsKnots)
+{
+  SensorNoiseModel model;
+  EXPECT_FALSE(model.correctsDepth());
+  model.depth_distortion_ratio[1] = 0.008;                                     // top row, second column
+  model.depth_distortion_ratio[SensorNoiseModel::DISTORTION_COLUMNS] = 0.004;  // second row, first column
+  EXPECT_TRUE(model.correctsDepth());
+  EXPECT_NEAR(model.distortionAt_ratio(80, 0, 641, 481), 0.008, 1e-12);
+  EXPECT_NEAR(model.distortionAt_ratio(0, 80, 641, 481), 0.004, 1e-12);
+  EXPECT_NEAR(model.distortionAt_ratio(40, 40, 641, 481), 0.003, 1e-12);
+  EXPECT_EQ(model.distortionAt_ratio(640, 480, 641, 481), 0);
+  EXPECT_NE(model, SensorNoiseModel());
+}
+
+TEST(NoiseModel, NamesEveryBrokenBound)
+{
+  SensorNoiseModel model;
+  EXPECT_TRUE(model.violations().empty());
+  model.axial_constant_m = 0;
+  model.lateral_constant_px = -1;
+  model.depth_bias_linear_ratio = 3;
+  model.depth_distortion_ratio[3] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(model.violations().size(), 4u);
+}
+
+TEST(NguyenWeight, IsTheInverseVariance)
+{
+  const SensorNoiseModel model;
+  EXPECT_DOUBLE_EQ(nguyenWeight(model, 0.4, 0), 1);
+  EXPECT_NEAR(nguyenWeight(model, 1, 0), std::pow(0.0012 / 0.001884, 2), 1e-12);
+  EXPECT_EQ(nguyenWeight(model, 1, 90 * DEG), 0);
+}
+
+TEST(ObservationWeight, AsPrintedItLeavesOnlyTheFringe)
+{
+  ObservationWeightOptions printed;
+  printed.model = WeightModel::PAPER_PRINTED;
+  EXPECT_DOUBLE_EQ(paperWeight(0, 0, printed), 0.5);
+  EXPECT_NEAR(paperWeight(0, 0.001, printed), 1 - 0.5 * std::exp(0.25), 1e-12);
+  EXPECT_GT(paperWeight(0, 0.002 * std::sqrt(std::log(2.0)) - 1e-6, printed), 0);
+  EXPECT_EQ(paperWeight(0, 0.002 * std::sqrt(std::log(2.0)) + 1e-6, printed), 0);
+  EXPECT_EQ(paperWeight(0, 1, printed), 0);
 }
 
 TEST(ObservationWeight, AngleFactor)
@@ -122,6 +166,22 @@ TEST(ObservationWeights, ImageAgreesWithTheFormulaAtSeveralDepths)
         EXPECT_NEAR(weight, paperWeight(theta, distance_px.at<float>(v, u) * z / 525.0), 2e-4);
       }
   }
+}
+
+TEST(ObservationWeights, NguyenGoesByTheFramesModel)
+{
+  Frame frame;
+  frame.camera = test_support::vgaCamera();
+  frame.noise_model.axial_constant_m = 0.002;
+  frame.depth_m = (cv::Mat_<float>(1, 3) << 0.4f, 2.0f, std::numeric_limits<float>::quiet_NaN());
+  frame.camera.cx = frame.camera.cy = 0;
+  ObservationWeightOptions options;
+  options.model = WeightModel::NGUYEN;
+  const cv::Mat normals(1, 3, CV_32FC3, cv::Scalar(0, 0, -1));
+  const cv::Mat weights = observationWeights(frame, normals, cv::Mat::zeros(1, 3, CV_32FC1), options);
+  EXPECT_NEAR(weights.at<float>(0, 0), 1, 1e-6);
+  EXPECT_NEAR(weights.at<float>(0, 1), std::pow(0.002 / (0.002 + 0.0019 * 1.6 * 1.6), 2), 1e-6);
+  EXPECT_EQ(weights.at<float>(0, 2), 0);
 }
 
 TEST(ObservationWeights, NothingWithoutNormalOrDepth)

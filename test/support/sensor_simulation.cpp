@@ -50,7 +50,8 @@ void addDepthNoise(const SensorNoise& noise, SceneImage* image)
         continue;
       }
       if (noise.depth_sigma_scale > 0)  // close to 90 deg the model has no bound, a sensor has
-        z += static_cast<float>(noise.depth_sigma_scale * random.gaussian(rgbd::axialSigma_m(z, std::min(theta, 1.4))));
+        z += static_cast<float>(noise.depth_sigma_scale *
+                                random.gaussian(rgbd::SensorNoiseModel().axialSigma_m(z, std::min(theta, 1.4))));
       if (noise.depth_quantum_m > 0)
         z = static_cast<float>(noise.depth_quantum_m * std::round(z / noise.depth_quantum_m));
     }

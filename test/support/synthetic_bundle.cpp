@@ -73,7 +73,8 @@ private:
   }
   float depth(double truth_m, double theta_rad)
   {
-    const double noise_m = options_.depth_sigma_scale * random_.gaussian(rgbd::axialSigma_m(truth_m, theta_rad));
+    const double noise_m =
+        options_.depth_sigma_scale * random_.gaussian(rgbd::SensorNoiseModel().axialSigma_m(truth_m, theta_rad));
     const bool missing = random_.uniform(0.0, 1.0) < options_.missing_depth_ratio;
     return missing ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(truth_m + noise_m);
   }

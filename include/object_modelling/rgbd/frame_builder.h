@@ -51,11 +51,13 @@ private:
 
   Images rectify(const RawFrame& raw);
   void updateMaps(const geometry::PinholeCamera& camera);
+  void takeBiasOff(cv::Mat* depth_m);
 
   FrameBuilderOptions options_;
   geometry::PinholeCamera mapped_camera_;  ///< camera of the maps; none yet if its width is 0
   cv::Mat color_map_, color_map_fraction_;
   cv::Mat nearest_map_;
+  cv::Mat distortion_ratio_;  ///< CV_32FC1, of the frames' size; empty until needed
 };
 
 }  // namespace object_modelling::rgbd

@@ -47,17 +47,14 @@ struct SensorNoiseModel
   /// Measured minus true depth, without the distortion; `z_m` is the measured depth.
   double depthBias_m(double z_m) const;
   bool correctsDepth() const;
+  /// The knots' value at a pixel of an image of the given size.
+  double distortionAt_ratio(double u_px, double v_px, int width_px, int height_px) const;
 
   bool operator==(const SensorNoiseModel& other) const;
   bool operator!=(const SensorNoiseModel& other) const { return !(*this == other); }
   /// Every coefficient that is out of its bound, as options have it.
   std::vector<std::string> violations() const;
 };
-
-/// Of the default model.
-double axialSigma_m(double z_m, double theta_rad);
-double lateralSigma_px(double theta_rad);
-double lateralSigma_m(double z_m, double theta_rad, double focal_px);
 
 /// What is known of the sensor that recorded a session.
 struct SensorCalibration

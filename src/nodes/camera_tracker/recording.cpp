@@ -66,6 +66,7 @@ std::string Recording::start(const std::string& session_id, const std::string& o
   session.id = session_id.empty() ? idOf(now) : session_id;
   session.object_id = object_id;
   session.reference_is_object = options_.tracker.reference == tracking::Reference::OBJECT;
+  session.calibration.noise_model = options_.frame.noise_model;
   requireId(session.id, "session id");
   if (!object_id.empty())
     requireId(object_id, "object id");
@@ -77,7 +78,7 @@ std::string Recording::start(const std::string& session_id, const std::string& o
   int keyframe_count = 0;
   if (resume)
   {
-    const std::vector<rgbd::Keyframe> keyframes = record_->reopen(session.id);
+    const std::vector<rgbd::Keyframe> keyframes = record_->reopen(session.id, options_.frame.noise_model);
     tracker_.resume(keyframes);
     keyframe_count = static_cast<int>(keyframes.size());
   }

@@ -46,9 +46,15 @@ std::string SessionRecord::freeId(const std::string& session_id)
   return id;
 }
 
-std::vector<rgbd::Keyframe> SessionRecord::reopen(const std::string& session_id)
+std::vector<rgbd::Keyframe> SessionRecord::reopen(const std::string& session_id,
+                                                  const rgbd::SensorNoiseModel& noise_model)
 {
   keyframes::Session session = store_.session(session_id);
+  if (session.calibration.noise_model != noise_model)
+    throw base::Error(base::StatusCode::FAILED_PRECONDITION,
+                      "session '" + session_id +
+                          "' was recorded with another noise model, which its depth has been corrected by; start the "
+                          "tracker with that one (noise_model), or record a new session");
   std::vector<rgbd::Keyframe> keyframes = keyframes::loadKeyframes(store_, session_id);
   if (keyframes.empty())
     throw base::Error(base::StatusCode::NO_RESULT,

@@ -20,8 +20,9 @@ public:
   std::string freeId(const std::string& session_id);
 
   void create(const keyframes::Session& session) { store_.createSession(session); }
-  /// Opens a stored session again and gives its keyframes; NO_RESULT if it has none.
-  std::vector<rgbd::Keyframe> reopen(const std::string& session_id);
+  /// Opens a stored session again and gives its keyframes; NO_RESULT if it has none, FAILED_PRECONDITION if it was
+  /// recorded with another noise model.
+  std::vector<rgbd::Keyframe> reopen(const std::string& session_id, const rgbd::SensorNoiseModel& noise_model);
   /// Waits until the store has as many keyframes as were sent, then closes the session. STORAGE if some never arrive.
   void finish(const std::string& session_id, int sent_keyframe_count);
 

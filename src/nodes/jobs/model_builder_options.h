@@ -35,6 +35,10 @@ void read(Reader& reader, ModelBuilderOptions* options)
   reader.read("fusion/min_weight", options->build.fusion.min_weight);
   reader.read("fusion/consistency_sigmas", options->build.fusion.consistency_sigmas);
   reader.read("fusion/min_views", options->build.fusion.min_views);
+  reader.read("fusion/weight/model", options->build.fusion.weight.model,
+              { { "paper", rgbd::WeightModel::PAPER },
+                { "paper_printed", rgbd::WeightModel::PAPER_PRINTED },
+                { "nguyen", rgbd::WeightModel::NGUYEN } });
   reader.read("fusion/weight/theta_max_rad", options->build.fusion.weight.theta_max_rad);
   reader.read("fusion/weight/sigma_lateral_m", options->build.fusion.weight.sigma_lateral_m);
   reader.read("surface/resolution_m", options->build.surface.resolution_m);

@@ -37,9 +37,12 @@ class LaunchFilesTest(unittest.TestCase):
         self.assertEqual({node.name for node in load("object_modelling.launch", "rviz:=false").nodes}, NODES)
 
     def test_arguments_arrive(self):
-        config = load("object_modelling.launch", "camera:=kinect", "reference:=object", "store_path:=/s", "database_path:=/d")
+        config = load("object_modelling.launch", "camera:=kinect", "reference:=object", "store_path:=/s",
+                      "noise_model:=/n", "database_path:=/d")
         self.assertEqual(parameter(config, "camera_tracker/reference"), "object")
         self.assertEqual(parameter(config, "keyframe_store/store_path"), "/s")
+        self.assertEqual(parameter(config, "camera_tracker/noise_model"), "/n")
+        self.assertEqual(parameter(config, "segmenter/noise_model"), "/n")
         self.assertEqual(parameter(config, "model_builder/database_path"), "/d")
         tracker = [node for node in config.nodes if node.name == "camera_tracker"][0]
         remaps = dict(tracker.remap_args)
