@@ -121,13 +121,14 @@ void BundleAdjuster::linkLandmarks(Adjustment* adjustment)
 void BundleAdjuster::findLinks(Adjustment* adjustment)
 {
   linkLandmarks(adjustment);
-  // Surfaces are aligned by their grey levels too, and would hold on to the offset that they were aligned with.
+  // Surfaces are aligned by their grey levels too; near the offset, what it does to them is proportional to it.
   if (options_.calibrate_color_offset)
   {
     adjustment->active.assign(adjustment->links.size(), true);
     adjust(adjustment);
   }
-  surface_links_ = linkSurfaces(keyframes_, adjustment->state.color_offset_px, options_.object_only, *control_);
+  surface_links_ = linkSurfaces(keyframes_, adjustment->state.color_offset_px, options_.calibrate_color_offset,
+                                options_.object_only, *control_);
 }
 
 Eigen::MatrixXi BundleAdjuster::connections(const std::vector<SightGroup>& groups) const

@@ -108,8 +108,8 @@ BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, in
   ceres::CauchyLoss surface_loss(SURFACE_LOSS_FACTOR * options.loss_width_sigmas);
   for (const SurfaceLink& link : state->surface_links)
   {
-    problem.AddResidualBlock(surfaceCost(cameras[link.a], cameras[link.b], link.T_a_b, link.information), &surface_loss,
-                             motions[link.a].data(), motions[link.b].data());
+    problem.AddResidualBlock(surfaceCost(cameras[link.a], cameras[link.b], link), &surface_loss, motions[link.a].data(),
+                             motions[link.b].data(), sensor.color_offset_px.data());
     for (const int k : { link.a, link.b })
     {
       solver_options.linear_solver_ordering->AddElementToGroup(motions[k].data(), 1);

@@ -5,6 +5,7 @@
 
 #include "object_modelling/geometry/pinhole_camera.h"
 #include "object_modelling/geometry/transform.h"
+#include "surface_links.h"
 
 namespace object_modelling::refinement
 {
@@ -67,9 +68,8 @@ private:
   double sigma_m_;
 };
 
-/// Relative pose of two cameras minus a measured one, in sigmas. Blocks: motion of a (6), motion of b (6).
-/// `information`: of a motion on the left of T_a_b. The caller owns the result.
-ceres::CostFunction* surfaceCost(const LinearisedCamera& a, const LinearisedCamera& b, const Eigen::Isometry3d& T_a_b,
-                                 const geometry::Matrix6d& information);
+/// Relative pose of two cameras minus that of the link, in sigmas. Blocks: motion of a (6), motion of b (6), offset of
+/// the colour images (2, px). The caller owns the result.
+ceres::CostFunction* surfaceCost(const LinearisedCamera& a, const LinearisedCamera& b, const SurfaceLink& link);
 
 }  // namespace object_modelling::refinement

@@ -1,6 +1,7 @@
 #include "surface_links.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
 
@@ -19,6 +20,7 @@ constexpr double MIN_OVERLAP_RATIO = 0.4;
 constexpr double MAX_VIEW_ANGLE_RAD = 0.7;
 constexpr int MAX_PARTNERS = 4;
 constexpr double NO_OFFSET_PX = 0.01;
+constexpr double OFFSET_STEP_PX = 0.5;  // beyond what interpolation and noise do
 constexpr int BATCH = 16;
 constexpr int DEPTH_STEP_PX = 16;
 constexpr double PATCH_RATIO = 0.3;    // of the depth: half the field of view
@@ -66,11 +68,11 @@ std::vector<IndexPair> overlappingPairs(const std::vector<rgbd::Keyframe>& keyfr
   return { pairs.begin(), pairs.end() };
 }
 
-std::optional<SurfaceLink> linkPair(const std::vector<rgbd::Keyframe>& keyframes,
-                                    const std::vector<tracking::SurfaceView>& views, const IndexPair& pair)
+/// One pair in both directions; a link needs both to agree.
+std::optional<SurfaceLink> linkPair(const std::vector<tracking::SurfaceView>& views, const IndexPair& pair,
+                                    const Eigen::Isometry3d& T_a_b_start)
 {
   const auto [a, b] = pair;
-  const Eigen::Isometry3d T_a_b_start = keyframes[a].T_session_camera.inverse() * keyframes[b].T_session_camera;
   const auto forwards = tracking::alignSurfaces(views[a], views[b], T_a_b_start);
   if (!forwards)
     return std::nullopt;
@@ -88,19 +90,17 @@ std::optional<SurfaceLink> linkPair(const std::vector<rgbd::Keyframe>& keyframes
   // The covariance grows by half half^T; in terms of the information, as that may leave directions free (Sherman and
   // Morrison).
   const geometry::Vector6d gain = forwards->information * half;
-  return SurfaceLink{ a, b, geometry::normalised(geometry::isometryFromVector(half) * forwards->T_a_b),
-                      forwards->information - gain * gain.transpose() / (1 + half.dot(gain)) };
+  SurfaceLink link;
+  link.a = a;
+  link.b = b;
+  link.T_a_b = geometry::normalised(geometry::isometryFromVector(half) * forwards->T_a_b);
+  link.information = forwards->information - gain * gain.transpose() / (1 + half.dot(gain));
+  return link;
 }
-}  // namespace
 
-std::vector<SurfaceLink> linkSurfaces(const std::vector<rgbd::Keyframe>& keyframes,
-                                      const Eigen::Vector2d& color_offset_px, bool object_only,
-                                      base::JobControl& control)
+std::vector<tracking::SurfaceView> viewsOf(const std::vector<rgbd::Keyframe>& keyframes,
+                                           const Eigen::Vector2d& color_offset_px, bool object_only)
 {
-  const auto usable = [](const rgbd::Keyframe& keyframe)
-  { return !keyframe.frame.gray.empty() && keyframe.frame.gray.size() == keyframe.frame.depth_m.size(); };
-  if (!std::all_of(keyframes.begin(), keyframes.end(), usable))
-    return {};
   std::vector<tracking::SurfaceView> views;
   for (const rgbd::Keyframe& keyframe : keyframes)
   {
@@ -110,6 +110,32 @@ std::vector<SurfaceLink> linkSurfaces(const std::vector<rgbd::Keyframe>& keyfram
     frame.gray = ontoDepth(frame.gray, color_offset_px);
     views.emplace_back(frame);
   }
+  return views;
+}
+
+/// The link with images shifted a little further, along x and along y, tells how it depends on the offset.
+void findByColorOffset(const std::array<std::vector<tracking::SurfaceView>, 2>& shifted, SurfaceLink* link)
+{
+  for (int axis = 0; axis < 2; ++axis)
+    if (const std::optional<SurfaceLink> moved = linkPair(shifted[axis], { link->a, link->b }, link->T_a_b))
+      link->by_color_offset.col(axis) =
+          geometry::vectorFromIsometry(moved->T_a_b * link->T_a_b.inverse()) / OFFSET_STEP_PX;
+}
+}  // namespace
+
+std::vector<SurfaceLink> linkSurfaces(const std::vector<rgbd::Keyframe>& keyframes,
+                                      const Eigen::Vector2d& color_offset_px, bool find_by_color_offset,
+                                      bool object_only, base::JobControl& control)
+{
+  const auto usable = [](const rgbd::Keyframe& keyframe)
+  { return !keyframe.frame.gray.empty() && keyframe.frame.gray.size() == keyframe.frame.depth_m.size(); };
+  if (!std::all_of(keyframes.begin(), keyframes.end(), usable))
+    return {};
+  const std::vector<tracking::SurfaceView> views = viewsOf(keyframes, color_offset_px, object_only);
+  std::array<std::vector<tracking::SurfaceView>, 2> shifted;
+  if (find_by_color_offset)
+    for (int axis = 0; axis < 2; ++axis)
+      shifted[axis] = viewsOf(keyframes, color_offset_px + OFFSET_STEP_PX * Eigen::Vector2d::Unit(axis), object_only);
   const std::vector<IndexPair> pairs = overlappingPairs(keyframes, object_only);
   std::vector<std::optional<SurfaceLink>> linked(pairs.size());
   const int count = static_cast<int>(pairs.size());
@@ -120,7 +146,16 @@ std::vector<SurfaceLink> linkSurfaces(const std::vector<rgbd::Keyframe>& keyfram
                       [&](const cv::Range& range)
                       {
                         for (int i = range.start; i < range.end; ++i)
-                          linked[i] = linkPair(keyframes, views, pairs[i]);
+                        {
+                          const auto [a, b] = pairs[i];
+                          linked[i] = linkPair(views, pairs[i],
+                                               keyframes[a].T_session_camera.inverse() * keyframes[b].T_session_camera);
+                          if (!linked[i])
+                            continue;
+                          linked[i]->color_offset_px = color_offset_px;
+                          if (find_by_color_offset)
+                            findByColorOffset(shifted, &*linked[i]);
+                        }
                       });
   }
   std::vector<SurfaceLink> links;

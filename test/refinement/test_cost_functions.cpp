@@ -111,17 +111,25 @@ TEST(CostFunctions, surfacesMayLeaveADirectionFree)
   geometry::Matrix6d information = 1e4 * geometry::Matrix6d::Identity();
   const geometry::Vector6d free = (geometry::Vector6d() << 1, 2, 0, 0, 0, 0).finished().normalized();
   information -= 1e4 * free * free.transpose();
-  const std::unique_ptr<ceres::CostFunction> cost(
-      surfaceCost(camera, camera, Eigen::Isometry3d::Identity(), information));
+  SurfaceLink link;
+  link.information = information;
+  link.by_color_offset(1, 0) = 0.01;
+  link.color_offset_px = { 0.5, 0 };
+  const Eigen::Vector2d offset_px(0.5, 0), further_px(1.5, 0);
+  const std::unique_ptr<ceres::CostFunction> cost(surfaceCost(camera, camera, link));
   const geometry::Vector6d none = geometry::Vector6d::Zero(), along = 0.01 * free;
   const geometry::Vector6d across = (geometry::Vector6d() << -0.02, 0.01, 0, 0, 0, 0).finished();
   geometry::Vector6d residuals;
-  const double* slid[2] = { along.data(), none.data() };
+  const double* slid[3] = { along.data(), none.data(), offset_px.data() };
   ASSERT_TRUE(cost->Evaluate(slid, residuals.data(), nullptr));
   EXPECT_LT(residuals.norm(), 1e-6);
-  const double* off[2] = { across.data(), none.data() };
+  const double* off[3] = { across.data(), none.data(), offset_px.data() };
   ASSERT_TRUE(cost->Evaluate(off, residuals.data(), nullptr));
   EXPECT_NEAR(residuals.norm(), 100 * across.norm(), 1e-6);
+  const double* moved[3] = { across.data(), none.data(), further_px.data() };
+  ASSERT_TRUE(cost->Evaluate(moved, residuals.data(), nullptr));
+  const geometry::Vector6d left = across - 0.01 * geometry::Vector6d::Unit(1);
+  EXPECT_NEAR(residuals.norm(), 100 * (left - free * free.dot(left)).norm(), 1e-6);
 }
 
 TEST(CostFunctions, countALandmarkBehindTheCameraAsGrossOutlier)

@@ -48,7 +48,7 @@ protected:
 
 TEST_F(SurfaceLinks, MeasureRelativePosesFromWrongOnes)
 {
-  const std::vector<SurfaceLink> links = linkSurfaces(keyframes_, Eigen::Vector2d::Zero(), false, control_);
+  const std::vector<SurfaceLink> links = linkSurfaces(keyframes_, Eigen::Vector2d::Zero(), false, false, control_);
   ASSERT_GE(links.size(), keyframes_.size() - 1);
   for (const SurfaceLink& link : links)
   {
@@ -86,11 +86,30 @@ TEST_F(SurfaceLinks, AlignShiftedImagesByTheKnownShift)
 {
   const Eigen::Vector2d offset_px(2.5, -3);
   const std::vector<SurfaceLink> links =
-      linkSurfaces(withColorShifted(keyframes_, offset_px), offset_px, false, control_);
+      linkSurfaces(withColorShifted(keyframes_, offset_px), offset_px, false, false, control_);
   ASSERT_GE(links.size(), keyframes_.size() - 1);
   for (const SurfaceLink& link : links)
     EXPECT_TRANSFORM_NEAR(link.T_a_b, truth_[link.a].inverse() * truth_[link.b], 0.002, 0.003)
         << link.a << " " << link.b;
+}
+
+TEST_F(SurfaceLinks, TellWhatAShiftDoesToThem)
+{
+  const Eigen::Vector2d offset_px(0.8, -0.6);
+  const std::vector<rgbd::Keyframe> shifted = withColorShifted(keyframes_, offset_px);
+  const std::vector<SurfaceLink> links = linkSurfaces(shifted, Eigen::Vector2d::Zero(), true, false, control_);
+  const std::vector<SurfaceLink> right = linkSurfaces(shifted, offset_px, true, false, control_);
+  ASSERT_EQ(links.size(), right.size());
+  double before = 0, after = 0;
+  for (std::size_t i = 0; i < links.size(); ++i)
+  {
+    EXPECT_TRUE(links[i].color_offset_px.isZero());
+    EXPECT_EQ(right[i].color_offset_px, offset_px);
+    const geometry::Vector6d off = geometry::vectorFromIsometry(right[i].T_a_b * links[i].T_a_b.inverse());
+    before += off.squaredNorm();
+    after += (off - links[i].by_color_offset * offset_px).squaredNorm();
+  }
+  EXPECT_LT(after, 0.2 * before);
 }
 
 TEST_F(SurfaceLinks, ShiftOfTheColorImagesIsFound)
@@ -125,11 +144,11 @@ TEST_F(SurfaceLinks, NoneWithoutSurfaces)
 {
   for (rgbd::Keyframe& keyframe : keyframes_)
     keyframe.frame.depth_m = cv::Mat(keyframe.frame.depth_m.size(), CV_32FC1, cv::Scalar(std::nan("")));
-  EXPECT_TRUE(linkSurfaces(keyframes_, Eigen::Vector2d::Zero(), false, control_).empty());
+  EXPECT_TRUE(linkSurfaces(keyframes_, Eigen::Vector2d::Zero(), false, false, control_).empty());
   for (rgbd::Keyframe& keyframe : keyframes_)
     keyframe.frame = {};
-  EXPECT_TRUE(linkSurfaces(keyframes_, Eigen::Vector2d::Zero(), false, control_).empty());
-  EXPECT_TRUE(linkSurfaces({}, Eigen::Vector2d::Zero(), false, control_).empty());
+  EXPECT_TRUE(linkSurfaces(keyframes_, Eigen::Vector2d::Zero(), false, false, control_).empty());
+  EXPECT_TRUE(linkSurfaces({}, Eigen::Vector2d::Zero(), false, false, control_).empty());
 }
 
 TEST_F(SurfaceLinks, NoneBetweenScenesThatDiffer)
@@ -139,7 +158,7 @@ TEST_F(SurfaceLinks, NoneBetweenScenesThatDiffer)
   other.table.seed = 99;
   keyframes_.resize(2);
   keyframes_[1].frame = test_support::renderFrame(other, test_support::vgaCamera().scaled(0.5), truth_[1], {}, 1.0);
-  EXPECT_TRUE(linkSurfaces(keyframes_, Eigen::Vector2d::Zero(), false, control_).empty());
+  EXPECT_TRUE(linkSurfaces(keyframes_, Eigen::Vector2d::Zero(), false, false, control_).empty());
 }
 
 }  // namespace object_modelling::refinement
