@@ -104,6 +104,14 @@ double meanSigma_m(const fusion::FusedCloud& cloud)
   return cloud.sigmas_m.empty() ? 0 : sum / static_cast<double>(cloud.sigmas_m.size());
 }
 
+/// What the object of a single session stood on. Of several, each saw what another one stood on.
+std::optional<geometry::Plane> supportOf(const Views& views, const Eigen::Isometry3d& T_model_reference)
+{
+  if (views.sessions.size() != 1 || !views.support_plane_reference)
+    return std::nullopt;
+  return geometry::transformed(T_model_reference, *views.support_plane_reference);
+}
+
 /// Everything of the model but its geometry.
 void describe(const Views& views, const std::vector<alignment::SessionPlacement>& placements,
               const Eigen::Isometry3d& T_model_reference, const geometry::OrientedBox& box_reference,
@@ -188,7 +196,8 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
   transform(*T_model_reference, &fused.cloud);
   timer.finish("fuse");
 
-  surface::SurfaceResult surface = surface::reconstructSurface(fused.cloud, options.surface, control);
+  surface::SurfaceResult surface =
+      surface::reconstructSurface(fused.cloud, supportOf(views, *T_model_reference), options.surface, control);
   report.status = surface.status;
   if (!report.status.ok())
     return report;

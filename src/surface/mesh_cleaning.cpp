@@ -2,35 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <set>
+
+#include "disjoint_sets.h"
 
 namespace object_modelling::surface
 {
 namespace
 {
-/// Union-find with the smallest index as representative.
-class DisjointSets
-{
-public:
-  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t find(std::uint32_t i)
-  {
-    while (parent_[i] != i)
-      i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(std::uint32_t a, std::uint32_t b)
-  {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<std::uint32_t> parent_;
-};
-
 float area_m2(const geometry::TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle)
 {
   const Eigen::Vector3f& a = mesh.vertices[triangle[0]];
@@ -63,6 +42,8 @@ void keepVertices(const std::vector<char>& keep, geometry::TriangleMesh* mesh)
       mesh->normals[count] = mesh->normals[i];
     if (!mesh->colors.empty())
       mesh->colors[count] = mesh->colors[i];
+    if (!mesh->seen.empty())
+      mesh->seen[count] = mesh->seen[i];
     ++count;
   }
   mesh->vertices.resize(count);
@@ -70,6 +51,8 @@ void keepVertices(const std::vector<char>& keep, geometry::TriangleMesh* mesh)
     mesh->normals.resize(count);
   if (!mesh->colors.empty())
     mesh->colors.resize(count);
+  if (!mesh->seen.empty())
+    mesh->seen.resize(count);
   for (auto& triangle : triangles)
   {
     for (std::uint32_t& vertex : triangle)
@@ -144,6 +127,8 @@ void splitTouchingFans(geometry::TriangleMesh* mesh)
         mesh->normals.push_back(mesh->normals[vertex]);
       if (!mesh->colors.empty())
         mesh->colors.push_back(mesh->colors[vertex]);
+      if (!mesh->seen.empty())
+        mesh->seen.push_back(mesh->seen[vertex]);
       for (std::uint32_t i = first; i < around.size(); ++i)
       {
         if (fans.find(i) == first)

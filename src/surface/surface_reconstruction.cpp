@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "closed_base.h"
 #include "mesh_cleaning.h"
 #include "object_modelling/base/options.h"
+#include "object_modelling/surface/decimation.h"
 #include "point_index.h"
 #include "poisson.h"
 
@@ -88,11 +90,12 @@ std::vector<std::string> SurfaceOptions::violations() const
   base::OptionsCheck check("surface_reconstruction");
   check.inRange("resolution_m", resolution_m, 1e-4, 0.1);
   check.inRange("max_support_distance_m", max_support_distance_m, 1e-4, 0.5);
+  check.inRange("max_decimation_error_m", max_decimation_error_m, 1e-6, 0.1);
   return check.violations();
 }
 
-SurfaceResult reconstructSurface(const fusion::FusedCloud& cloud, const SurfaceOptions& options,
-                                 base::JobControl& control)
+SurfaceResult reconstructSurface(const fusion::FusedCloud& cloud, const std::optional<geometry::Plane>& support,
+                                 const SurfaceOptions& options, base::JobControl& control)
 {
   base::checked(options);
   control.report("mesh", 0, STAGES);
@@ -104,19 +107,26 @@ SurfaceResult reconstructSurface(const fusion::FusedCloud& cloud, const SurfaceO
                                                        " are needed; record more views of the object" };
     return result;
   }
-  geometry::TriangleMesh mesh = poissonSurface(cloud.points, cloud.normals, options.resolution_m);
+  std::vector<Eigen::Vector3f> points = cloud.points, normals = cloud.normals;
+  if (options.watertight && support)
+    addBase(*support, options.resolution_m, &points, &normals);
+  geometry::TriangleMesh mesh = poissonSurface(points, normals, options.resolution_m);
   removeDegenerateTriangles(&mesh);
   geometry::computeNormals(&mesh);
 
   control.report("mesh", 1, STAGES);
   const PointIndex index(cloud.points);
-  std::vector<char> keep(mesh.vertices.size());
+  mesh.seen.resize(mesh.vertices.size());
 #pragma omp parallel for schedule(static)
-  for (std::int64_t i = 0; i < static_cast<std::int64_t>(keep.size()); ++i)
-    keep[i] = supported(mesh.vertices[i], mesh.normals[i], cloud, index, options);
+  for (std::int64_t i = 0; i < static_cast<std::int64_t>(mesh.seen.size()); ++i)
+    mesh.seen[i] = supported(mesh.vertices[i], mesh.normals[i], cloud, index, options);
 
   control.report("mesh", 2, STAGES);
-  keepVertices(keep, &mesh);
+  if (!options.watertight)
+  {
+    keepVertices({ mesh.seen.begin(), mesh.seen.end() }, &mesh);
+    mesh.seen.clear();
+  }
   removeSmallPieces(MIN_PIECE_RATIO, &mesh);
   splitTouchingFans(&mesh);
   if (mesh.empty())
@@ -128,6 +138,12 @@ SurfaceResult reconstructSurface(const fusion::FusedCloud& cloud, const SurfaceO
   }
 
   control.report("mesh", 3, STAGES);
+  if (options.max_triangles > 0)
+  {
+    const DecimationResult decimated = decimate(mesh, { options.max_triangles, options.max_decimation_error_m });
+    mesh = decimated.mesh;
+    result.warning = decimated.status.message;
+  }
   geometry::computeNormals(&mesh);
   if (cloud.colors.size() == cloud.size())
     colourFromCloud(cloud, index, &mesh);

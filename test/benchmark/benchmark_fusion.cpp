@@ -53,7 +53,7 @@ int main(int argc, char** argv)
     const fusion::CloudFusionResult fused = fusion::fuse(keyframes, {}, control);
     const double fusion_s = secondsSince(start);
     start = std::chrono::steady_clock::now();
-    const surface::SurfaceResult surface = surface::reconstructSurface(fused.cloud, {}, control);
+    const surface::SurfaceResult surface = surface::reconstructSurface(fused.cloud, std::nullopt, {}, control);
     const double surface_s = secondsSince(start);
     double sum_m = 0;
     for (const Eigen::Vector3f& point : fused.cloud.points)

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "object_modelling/surface/mesh_check.h"
+
 namespace object_modelling::surface
 {
 namespace
@@ -33,10 +35,11 @@ fusion::FusedCloud sphere(float floor_m = -1, const Eigen::Vector3f& center = Ei
   return cloud;
 }
 
-SurfaceResult reconstruct(const fusion::FusedCloud& cloud, const SurfaceOptions& options = {})
+SurfaceResult reconstruct(const fusion::FusedCloud& cloud, const SurfaceOptions& options = {},
+                          const std::optional<geometry::Plane>& support = std::nullopt)
 {
   base::JobControl control;
-  return reconstructSurface(cloud, options, control);
+  return reconstructSurface(cloud, support, options, control);
 }
 
 /// Edges by how many triangles use them.
@@ -136,6 +139,49 @@ TEST(SurfaceReconstruction, SameCloudGivesTheSameMesh)
   EXPECT_EQ(a.mesh.colors, b.mesh.colors);
 }
 
+TEST(SurfaceReconstruction, ClosedSurfaceEndsOnTheSupportAndSaysWhatWasNotSeen)
+{
+  constexpr float FLOOR_M = -0.03f;
+  SurfaceOptions options;
+  options.watertight = true;
+  geometry::Plane support;
+  support.offset_m = -FLOOR_M;
+  const SurfaceResult result = reconstruct(sphere(FLOOR_M), options, support);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  const geometry::TriangleMesh& mesh = result.mesh;
+  EXPECT_TRUE(checkMesh(mesh).watertight());
+  const double cap_m = RADIUS_M + FLOOR_M;
+  EXPECT_NEAR(checkMesh(mesh).volume_m3,
+              M_PI * (4.0 / 3 * std::pow(RADIUS_M, 3) - cap_m * cap_m * (RADIUS_M - cap_m / 3)),
+              0.02 * 4.0 / 3 * M_PI * std::pow(RADIUS_M, 3));
+  ASSERT_EQ(mesh.seen.size(), mesh.vertices.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+  {
+    EXPECT_GT(mesh.vertices[i].z(), FLOOR_M - 0.003f);
+    if (mesh.vertices[i].z() > FLOOR_M + 0.005f)
+      EXPECT_EQ(mesh.seen[i], 1);
+    if (mesh.vertices[i].z() < FLOOR_M + 0.001f && mesh.vertices[i].head<2>().norm() < 0.02f)
+      EXPECT_EQ(mesh.seen[i], 0);
+  }
+  const SurfaceResult open = reconstruct(sphere(FLOOR_M));
+  EXPECT_TRUE(checkMesh(open.mesh).manifold());
+  EXPECT_FALSE(checkMesh(open.mesh).watertight());
+  EXPECT_TRUE(open.mesh.seen.empty());
+}
+
+TEST(SurfaceReconstruction, KeepsWithinTheBudgetOfTriangles)
+{
+  SurfaceOptions options;
+  options.max_triangles = 2000;
+  const SurfaceResult result = reconstruct(sphere(), options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_TRUE(result.warning.empty()) << result.warning;
+  EXPECT_LE(result.mesh.triangles.size(), 2000u);
+  EXPECT_EQ(result.mesh.colors.size(), result.mesh.vertices.size());
+  options.max_triangles = 20;
+  EXPECT_NE(reconstruct(sphere(), options).warning.find("20"), std::string::npos);
+}
+
 TEST(SurfaceReconstruction, TooFewPointsAreNoSurface)
 {
   fusion::FusedCloud few;
@@ -153,7 +199,7 @@ TEST(SurfaceReconstruction, StopsWhenCancelledAndRefusesBadOptions)
 {
   base::JobControl control;
   control.cancel();
-  EXPECT_THROW(reconstructSurface(sphere(), {}, control), base::Cancelled);
+  EXPECT_THROW(reconstructSurface(sphere(), std::nullopt, {}, control), base::Cancelled);
   SurfaceOptions options;
   options.resolution_m = std::numeric_limits<double>::quiet_NaN();
   options.max_support_distance_m = 0;

@@ -43,6 +43,9 @@ void read(Reader& reader, ModelBuilderOptions* options)
   reader.read("fusion/weight/sigma_lateral_m", options->build.fusion.weight.sigma_lateral_m);
   reader.read("surface/resolution_m", options->build.surface.resolution_m);
   reader.read("surface/max_support_distance_m", options->build.surface.max_support_distance_m);
+  reader.read("surface/watertight", options->build.surface.watertight);
+  reader.read("surface/max_triangles", options->build.surface.max_triangles);
+  reader.read("surface/max_decimation_error_m", options->build.surface.max_decimation_error_m);
   read(reader, &options->store);
 }
 
