@@ -270,7 +270,8 @@ void fitLateralSigma(const EdgeProfiles& profiles, const NoiseCalibrationOptions
   else
   {
     constant.reason = std::to_string(calibration->edge_count) + " straight edges";
-    grazing.reason = "no edges at more than 65 deg from the wall's normal";
+    grazing.reason = widest_rad < options.grazing_from_rad ? "no edges at more than 65 deg from the wall's normal"
+                                                           : "the edges do not fray more at large angles";
     model.lateral_constant_px = std::clamp(mean_px / length_px, 0.0, 20.0);
     const Eigen::Vector2d both = A.ldlt().solve(b);
     if (groups >= 3 && widest_rad >= options.grazing_from_rad && both[0] > 0 && both[1] >= 0 && both[1] < 20)
