@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <XmlRpcValue.h>
@@ -19,6 +20,14 @@ public:
   void read(const std::string& key, T& value)
   {
     fields[key] = XmlRpc::XmlRpcValue(convertible(value));
+  }
+  /// The word of the value.
+  template <typename Enum>
+  void read(const std::string& key, Enum& value, const std::vector<std::pair<std::string, Enum>>& words)
+  {
+    for (const auto& [word, meaning] : words)
+      if (meaning == value)
+        fields[key] = XmlRpc::XmlRpcValue(word);
   }
   void include(const std::vector<std::string>&) {}
 

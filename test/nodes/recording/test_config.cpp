@@ -11,20 +11,6 @@ namespace object_modelling::nodes
 {
 namespace
 {
-/// FieldList for options that have words as values too.
-class WordFieldList : public test::FieldList
-{
-public:
-  using FieldList::read;
-  template <typename Enum>
-  void read(const std::string& key, Enum& value, const std::vector<std::pair<std::string, Enum>>& words)
-  {
-    for (const auto& [word, meaning] : words)
-      if (meaning == value)
-        fields[key] = XmlRpc::XmlRpcValue(word);
-  }
-};
-
 std::string textOf(const XmlRpc::XmlRpcValue& value)
 {
   std::ostringstream text;
@@ -47,7 +33,7 @@ void expectDefaults(const std::string& node)
   EXPECT_NO_THROW(reader.finish());
 
   Options defaults;
-  WordFieldList known;
+  test::FieldList known;
   read(known, &defaults);
   std::map<std::string, std::string> expected, shipped;
   for (const auto& [key, value] : known.fields)
