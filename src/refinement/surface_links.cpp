@@ -6,8 +6,8 @@
 #include <set>
 
 #include <opencv2/core/utility.hpp>
-#include <opencv2/imgproc.hpp>
 
+#include "color_shift.h"
 #include "object_modelling/refinement/keyframe_linker.h"
 #include "object_modelling/tracking/surface_alignment.h"
 #include "pair_selection.h"
@@ -19,7 +19,6 @@ namespace
 constexpr double MIN_OVERLAP_RATIO = 0.4;
 constexpr double MAX_VIEW_ANGLE_RAD = 0.7;
 constexpr int MAX_PARTNERS = 4;
-constexpr double NO_OFFSET_PX = 0.01;
 constexpr double OFFSET_STEP_PX = 0.5;  // beyond what interpolation and noise do
 constexpr int BATCH = 16;
 constexpr int DEPTH_STEP_PX = 16;
@@ -28,17 +27,6 @@ constexpr double DRIFT_RATIO = 0.004;  // of the depth, as for other edges
 // There and back again: more between them, and one of the two has slid.
 constexpr double MAX_CONTRADICTION_M = 0.03;
 constexpr double MAX_CONTRADICTION_RAD = 0.03;
-
-/// The grey image in the pixels of the depth image.
-cv::Mat ontoDepth(const cv::Mat& gray, const Eigen::Vector2d& color_offset_px)
-{
-  if (color_offset_px.norm() < NO_OFFSET_PX)
-    return gray;
-  const cv::Matx23d shift(1, 0, color_offset_px.x(), 0, 1, color_offset_px.y());
-  cv::Mat shifted;
-  cv::warpAffine(gray, shifted, shift, gray.size(), cv::INTER_CUBIC | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
-  return shifted;
-}
 
 std::vector<IndexPair> overlappingPairs(const std::vector<rgbd::Keyframe>& keyframes, bool object_only)
 {

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "icp_problem.h"
+
+namespace object_modelling::refinement
+{
+/// What multi-view ICP found, before it is put into a report.
+struct IcpOutcome
+{
+  std::vector<Eigen::Isometry3d> T_session_camera;
+  std::vector<int> members;  ///< keyframes that took part; the first stayed where it was
+  std::vector<double> rmse_m;
+  bool converged = false;
+};
+
+/// Matches and solves by turns, from the widest gate to noise alone; leaves out keyframes that then do not fit, and
+/// solves again. Leaves `problem` matched at the outcome.
+IcpOutcome runIcp(const std::vector<rgbd::Keyframe>& keyframes, const MultiViewIcpOptions& options, IcpProblem* problem,
+                  base::JobControl* control);
+
+}  // namespace object_modelling::refinement

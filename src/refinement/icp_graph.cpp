@@ -1,0 +1,74 @@
+#include "icp_graph.h"
+
+#include <algorithm>
+#include <map>
+
+#include <opencv2/core/utility.hpp>
+
+#include "connectivity.h"
+#include "pair_selection.h"
+
+namespace object_modelling::refinement
+{
+namespace
+{
+/// The first `count / 2`, and as many evenly out of the rest.
+std::vector<int> spread(const std::vector<int>& sorted, int count)
+{
+  const int size = static_cast<int>(sorted.size());
+  if (size <= count)
+    return sorted;
+  const int nearest = (count + 1) / 2;
+  std::vector<int> chosen(sorted.begin(), sorted.begin() + nearest);
+  for (int i = 1; i <= count - nearest; ++i)
+    chosen.push_back(sorted[nearest - 1 + i * (size - nearest) / (count - nearest)]);
+  return chosen;
+}
+}  // namespace
+
+std::vector<IcpEdge> overlapGraph(const std::vector<rgbd::Keyframe>& keyframes, const MultiViewIcpOptions& options)
+{
+  KeyframeLinkerOptions prediction;
+  prediction.object_only = options.object_only;
+  prediction.max_view_angle_rad = options.max_view_angle_rad;
+  const int count = static_cast<int>(keyframes.size());
+  Eigen::MatrixXd overlap = Eigen::MatrixXd::Zero(count, count);
+  cv::parallel_for_(
+      cv::Range(0, count),
+      [&](const cv::Range& range)
+      {
+        for (int a = range.start; a < range.end; ++a)
+          for (int b = 0; b < count; ++b)
+            if (a != b)
+              overlap(a, b) = predictedOverlap(keyframes[a], keyframes[b], prediction);
+      },
+      options.threads);
+  // What one sees of the other's surface, both ways: a near view is a part of a far one.
+  const auto shared = [&](int a, int b) { return std::min(overlap(a, b), overlap(b, a)); };
+  std::map<std::pair<int, int>, double> edges;
+  for (int a = 0; a < count; ++a)
+  {
+    std::vector<int> partners;
+    for (int b = 0; b < count; ++b)
+      if (a != b && shared(a, b) >= options.min_overlap_ratio)
+        partners.push_back(b);
+    std::stable_sort(partners.begin(), partners.end(), [&](int x, int y) { return shared(a, x) > shared(a, y); });
+    for (const int b : spread(partners, options.max_partners))
+      edges[std::minmax(a, b)] = shared(a, b);
+  }
+  std::vector<IcpEdge> graph;
+  for (const auto& [pair, ratio] : edges)
+    graph.push_back({ pair.first, pair.second, ratio });
+  return graph;
+}
+
+std::vector<int> connectedKeyframes(std::size_t keyframe_count, const std::vector<IcpEdge>& edges)
+{
+  const auto count = static_cast<Eigen::Index>(keyframe_count);
+  Eigen::MatrixXi linked = Eigen::MatrixXi::Zero(count, count);
+  for (const IcpEdge& edge : edges)
+    linked(edge.a, edge.b) = linked(edge.b, edge.a) = 1;
+  return largestComponent(linked, 1);
+}
+
+}  // namespace object_modelling::refinement

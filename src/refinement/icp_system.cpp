@@ -1,0 +1,103 @@
+#include "icp_system.h"
+
+#include <Eigen/SparseCholesky>
+
+namespace object_modelling::refinement
+{
+namespace
+{
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// Row of each keyframe's unknowns, -1 for those that do not move.
+std::vector<int> rowsOf(const std::vector<int>& members, std::size_t keyframe_count)
+{
+  std::vector<int> rows(keyframe_count, -1);
+  for (std::size_t i = 1; i < members.size(); ++i)
+    rows[members[i]] = static_cast<int>(6 * (i - 1));
+  return rows;
+}
+
+/// Lower triangle of the normal equations; every diagonal entry exists.
+SparseMatrix matrixOf(const std::vector<PairEquations>& pairs, const std::vector<int>& rows, int unknowns,
+                      const geometry::Matrix6d& prior)
+{
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](int row, int column, const geometry::Matrix6d& block)
+  {
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j)
+        if (row + i >= column + j)
+          entries.emplace_back(row + i, column + j, block(i, j));
+  };
+  for (int row = 0; row < unknowns; row += 6)
+    add(row, row, prior);
+  for (const PairEquations& pair : pairs)
+  {
+    const int row_a = rows[pair.a], row_b = rows[pair.b];
+    if (row_a >= 0)
+      add(row_a, row_a, pair.A);
+    if (row_b >= 0)
+      add(row_b, row_b, pair.A);
+    if (row_a >= 0 && row_b >= 0)
+      add(std::max(row_a, row_b), std::min(row_a, row_b), -pair.A);
+  }
+  SparseMatrix matrix(unknowns, unknowns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+}  // namespace
+
+std::optional<std::vector<geometry::Vector6d>> solveMotions(const std::vector<PairEquations>& pairs,
+                                                            const std::vector<int>& members, std::size_t keyframe_count,
+                                                            double damping)
+{
+  const std::vector<int> rows = rowsOf(members, keyframe_count);
+  const int unknowns = 6 * (static_cast<int>(members.size()) - 1);
+  SparseMatrix matrix = matrixOf(pairs, rows, unknowns, geometry::Matrix6d::Zero());
+  const double least = 1e-9 * (1 + Eigen::VectorXd(matrix.diagonal()).maxCoeff());
+  for (int i = 0; i < unknowns; ++i)
+    matrix.coeffRef(i, i) += damping * matrix.coeff(i, i) + least;
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
+  for (const PairEquations& pair : pairs)
+  {
+    if (rows[pair.a] >= 0)
+      right.segment<6>(rows[pair.a]) -= pair.g;
+    if (rows[pair.b] >= 0)
+      right.segment<6>(rows[pair.b]) += pair.g;
+  }
+  const Eigen::SimplicialLDLT<SparseMatrix> factors(matrix);
+  if (factors.info() != Eigen::Success)
+    return std::nullopt;
+  const Eigen::VectorXd solution = factors.solve(right);
+  if (!solution.allFinite())
+    return std::nullopt;
+  std::vector<geometry::Vector6d> motions(keyframe_count, geometry::Vector6d::Zero());
+  for (std::size_t k = 0; k < keyframe_count; ++k)
+    if (rows[k] >= 0)
+      motions[k] = solution.segment<6>(rows[k]);
+  return motions;
+}
+
+std::vector<geometry::Matrix6d> motionCovariances(const std::vector<PairEquations>& pairs,
+                                                  const std::vector<int>& members, std::size_t keyframe_count,
+                                                  const geometry::Matrix6d& prior)
+{
+  std::vector<geometry::Matrix6d> covariances(keyframe_count, geometry::Matrix6d::Zero());
+  const std::vector<int> rows = rowsOf(members, keyframe_count);
+  const int unknowns = 6 * (static_cast<int>(members.size()) - 1);
+  const Eigen::SimplicialLDLT<SparseMatrix> factors(matrixOf(pairs, rows, unknowns, prior));
+  if (unknowns == 0 || factors.info() != Eigen::Success)
+    return covariances;
+  for (std::size_t k = 0; k < keyframe_count; ++k)
+  {
+    if (rows[k] < 0)
+      continue;
+    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(unknowns, 6);
+    unit.block<6, 6>(rows[k], 0).setIdentity();
+    const geometry::Matrix6d block = factors.solve(unit).block<6, 6>(rows[k], 0);
+    covariances[k] = 0.5 * (block + block.transpose());
+  }
+  return covariances;
+}
+
+}  // namespace object_modelling::refinement

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "object_modelling/geometry/transform.h"
+
+namespace object_modelling::refinement
+{
+/// Half the squared error of what ties keyframes a and b together is about cost + g d + d A d / 2, where d is a's
+/// motion minus b's, both on the left of T_session_camera. Moving both alike changes nothing, so this is all there is
+/// to know.
+struct PairEquations
+{
+  int a = -1, b = -1;
+  double cost = 0;
+  geometry::Matrix6d A = geometry::Matrix6d::Zero();
+  geometry::Vector6d g = geometry::Vector6d::Zero();
+};
+
+/// Least motions of all keyframes, with Levenberg and Marquardt's damping; the first of `members` stays where it is, as
+/// do keyframes that are not members. Nothing if the equations have no solution.
+std::optional<std::vector<geometry::Vector6d>> solveMotions(const std::vector<PairEquations>& pairs,
+                                                            const std::vector<int>& members, std::size_t keyframe_count,
+                                                            double damping);
+
+/// Covariance of those motions: blocks of the inverse, for members but the first; zero for the others, and for all if
+/// the equations are singular. `prior`: information of each motion besides the pairs'.
+std::vector<geometry::Matrix6d> motionCovariances(const std::vector<PairEquations>& pairs,
+                                                  const std::vector<int>& members, std::size_t keyframe_count,
+                                                  const geometry::Matrix6d& prior);
+
+}  // namespace object_modelling::refinement
