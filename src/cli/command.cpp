@@ -23,6 +23,13 @@ void addRecordOptions(CLI::App& command, RecordArguments* arguments)
       ->capture_default_str();
   command.add_option("--noise-model", arguments->noise_model,
                      "YAML of the sensor's noise and depth bias, from calibrate_noise; without it a Kinect's");
+  command
+      .add_option_function<std::string>(
+          "--refinement",
+          [arguments](const std::string& value) { arguments->refinement = pipeline::refinementMethodFrom(value); },
+          "How keyframe poses are refined: 'bundle_adjustment' (default), 'multi_view_icp' (surfaces; needs no print) "
+          "or 'both', one after the other")
+      ->check(CLI::IsMember({ "bundle_adjustment", "multi_view_icp", "both" }));
 }
 
 pipeline::RecordOptions recordOptions(const RecordArguments& arguments)
@@ -35,10 +42,11 @@ pipeline::RecordOptions recordOptions(const RecordArguments& arguments)
   return options;
 }
 
-refinement::BundleAdjustmentOptions refinementOptions(const RecordArguments& arguments)
+pipeline::RefinementOptions refinementOptions(const RecordArguments& arguments)
 {
-  refinement::BundleAdjustmentOptions options;
-  options.seed = arguments.seed;
+  pipeline::RefinementOptions options;
+  options.method = arguments.refinement;
+  options.bundle_adjustment.seed = arguments.seed;
   return options;
 }
 

@@ -9,7 +9,7 @@
 
 #include "object_modelling/base/job_control.h"
 #include "object_modelling/pipeline/record_session.h"
-#include "object_modelling/refinement/bundle_adjustment.h"
+#include "object_modelling/pipeline/session_refinement.h"
 
 namespace object_modelling::cli
 {
@@ -35,10 +35,11 @@ struct RecordArguments
   bool object_reference = false;
   std::uint64_t seed = 1;
   std::string noise_model;  ///< path; empty: the default
+  pipeline::RefinementMethod refinement = pipeline::RefinementOptions().method;
 };
 void addRecordOptions(CLI::App& command, RecordArguments* arguments);
 pipeline::RecordOptions recordOptions(const RecordArguments& arguments);
-refinement::BundleAdjustmentOptions refinementOptions(const RecordArguments& arguments);
+pipeline::RefinementOptions refinementOptions(const RecordArguments& arguments);
 
 /// A session id from the name of a recording: its last path component with everything unusual replaced by '_'.
 std::string sessionIdFrom(const std::string& recording);

@@ -48,8 +48,8 @@ std::string processRecording(const std::string& recording, const Arguments& argu
   output->text += "session   " + session.id + "\n" + toText(recorded);
   nlohmann::json json = toJson(recorded);
 
-  const refinement::BundleAdjustmentResult refined =
-      pipeline::refineSession(store, session.id, refinementOptions(arguments.record), control);
+  const pipeline::SessionRefinement refined =
+      pipeline::refineSessionBy(store, session.id, refinementOptions(arguments.record), control);
   output->text += toText(refined);
   json["refinement"] = toJson(refined);
   throwUnlessOk("refinement of session '" + session.id + "'", refined.status);

@@ -8,6 +8,7 @@
 #include "object_modelling/pipeline/build_object.h"
 #include "object_modelling/pipeline/record_session.h"
 #include "object_modelling/pipeline/session_jobs.h"
+#include "object_modelling/pipeline/session_refinement.h"
 
 // Reports of the pipeline as JSON (units in the keys) and as text.
 namespace object_modelling::cli
@@ -15,11 +16,16 @@ namespace object_modelling::cli
 nlohmann::json toJson(const base::Status& status);
 nlohmann::json toJson(const pipeline::RecordReport& report);
 nlohmann::json toJson(const refinement::BundleAdjustmentResult& result);
+nlohmann::json toJson(const refinement::MultiViewIcpResult& result);
+/// As of bundle adjustment where that took part, with what multi-view ICP says under "multi_view_icp".
+nlohmann::json toJson(const pipeline::SessionRefinement& refined);
 nlohmann::json toJson(const pipeline::SegmentReport& report);
 nlohmann::json toJson(const pipeline::BuildReport& report);
 
 std::string toText(const pipeline::RecordReport& report);
 std::string toText(const refinement::BundleAdjustmentResult& result);
+std::string toText(const refinement::MultiViewIcpResult& result);
+std::string toText(const pipeline::SessionRefinement& refined);
 std::string toText(const pipeline::SegmentReport& report);
 std::string toText(const pipeline::BuildReport& report);
 

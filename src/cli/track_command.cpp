@@ -42,8 +42,8 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
     return output;
 
   const std::vector<rgbd::Keyframe> before = keyframes::loadKeyframes(store->get(), session.id);
-  const refinement::BundleAdjustmentResult refined =
-      pipeline::refineSession(store->get(), session.id, refinementOptions(arguments.record), control);
+  const pipeline::SessionRefinement refined =
+      pipeline::refineSessionBy(store->get(), session.id, refinementOptions(arguments.record), control);
   output.text += toText(refined);
   output.json["refinement"] = toJson(refined);
   if (!refined.status.ok())
@@ -72,7 +72,7 @@ void addTrackCommand(CLI::App& app, Command* chosen)
   command->add_option("--trajectory", arguments->trajectory,
                       "Write session_from_camera of every tracked frame, TUM format, as it was known live");
   command->add_option("--refined-trajectory", arguments->refined_trajectory,
-                      "Refine the keyframes by bundle adjustment and write the trajectory that follows from them");
+                      "Refine the keyframes (--refinement) and write the trajectory that follows from them");
   addRecordOptions(*command, &arguments->record);
   command->footer(
       "Example: object_modelling track my_recording --trajectory live.txt --refined-trajectory refined.txt");

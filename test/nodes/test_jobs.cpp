@@ -104,10 +104,12 @@ protected:
     return Job<object_modelling::SegmentSessionAction>("segmenter/segment_session").run(goal);
   }
   object_modelling::RefineResult refine(const std::vector<std::string>& session_ids,
-                                        const std::string& node = "refiner")
+                                        const std::string& node = "refiner",
+                                        std::uint8_t method = object_modelling::RefineGoal::DEFAULT)
   {
     object_modelling::RefineGoal goal;
     goal.session_ids = session_ids;
+    goal.method = method;
     return Job<object_modelling::RefineAction>(node + "/refine").run(goal);
   }
   object_modelling::AlignResult align(const std::vector<std::string>& session_ids)
@@ -154,6 +156,20 @@ TEST_F(JobsTest, SessionWithoutKeyframes)
   EXPECT_STATUS(Status::FAILED_PRECONDITION, "'empty' has no keyframes", refine({ "empty" }));
   EXPECT_STATUS(Status::FAILED_PRECONDITION, "'empty' has no keyframes", segment("empty"));
   EXPECT_STATUS(Status::FAILED_PRECONDITION, "'empty' has no keyframes", build(buildGoal("box", "empty")));
+}
+
+TEST_F(JobsTest, RefinesByTheMethodAskedFor)
+{
+  record(store_, "surfaces", 12);
+  const auto result = refine({ "surfaces" }, "refiner", object_modelling::RefineGoal::MULTI_VIEW_ICP);
+  ASSERT_EQ(result.status.code, Status::OK) << result.status.message;
+  ASSERT_EQ(result.sessions.size(), 1U);
+  const object_modelling::SessionRefinement& refined = result.sessions[0];
+  EXPECT_EQ(refined.icp_residuals.size(), 12U);
+  EXPECT_EQ(static_cast<int>(refined.icp_rmse_m.size()), refined.icp_iterations);
+  EXPECT_TRUE(refined.residuals.empty());
+  EXPECT_TRUE(refined.icp_left_out.empty());
+  EXPECT_STATUS(Status::INVALID_ARGUMENT, "method 9", refine({ "surfaces" }, "refiner", 9));
 }
 
 TEST_F(JobsTest, StoreThatIsDownIsNamed)

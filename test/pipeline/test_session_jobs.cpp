@@ -4,6 +4,7 @@
 
 #include "object_modelling/pipeline/record_session.h"
 #include "object_modelling/pipeline/session_jobs.h"
+#include "object_modelling/pipeline/session_refinement.h"
 #include "recordings.h"
 #include "support/temp_dir.h"
 #include "support/transform_matchers.h"
@@ -169,6 +170,58 @@ TEST_F(SessionJobs, AlignPlacesOneAndRefusesSeveral)
   EXPECT_TRUE(two.placements.empty());
   EXPECT_EQ(fingerprint(*store_, WALK) + fingerprint(*store_, "other"), before);
   EXPECT_EQ(alignSessions(*store_, {}, control_).status.code, StatusCode::INVALID_ARGUMENT);
+}
+
+TEST_F(SessionJobs, RefineByTheMethodAskedFor)
+{
+  for (const RefinementMethod method :
+       { RefinementMethod::BUNDLE_ADJUSTMENT, RefinementMethod::MULTI_VIEW_ICP, RefinementMethod::BOTH })
+  {
+    RefinementOptions options;
+    options.method = method;
+    const SessionRefinement refined = refineSessionBy(*store_, WALK, options, control_);
+    ASSERT_TRUE(refined.status.ok()) << refined.status.message;
+    EXPECT_EQ(refined.bundle_adjustment.has_value(), method != RefinementMethod::MULTI_VIEW_ICP);
+    EXPECT_EQ(refined.multi_view_icp.has_value(), method != RefinementMethod::BUNDLE_ADJUSTMENT);
+    EXPECT_LT(worstPosition_m(), 0.004);
+    const std::vector<rgbd::Keyframe> stored = keyframes::loadKeyframes(*store_, WALK);
+    ASSERT_EQ(refined.T_session_camera.size(), stored.size());
+    for (std::size_t k = 0; k < stored.size(); ++k)
+      EXPECT_TRANSFORM_NEAR(refined.T_session_camera[k], stored[k].T_session_camera, 1e-9, 1e-9);
+  }
+  EXPECT_EQ(statusOf([] { refinementMethodFrom("by hand"); }).code, StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(refinementMethodFrom("both"), RefinementMethod::BOTH);
+}
+
+TEST_F(SessionJobs, SurfacesRefineWhatNoLandmarksLink)
+{
+  store_->createSession(named("no_landmarks"));
+  for (rgbd::Keyframe& keyframe : keyframes::loadKeyframes(*store_, WALK))
+  {
+    keyframe.observations.clear();
+    store_->addKeyframe("no_landmarks", keyframe);
+  }
+  RefinementOptions options;
+  options.method = RefinementMethod::MULTI_VIEW_ICP;
+  const SessionRefinement refined = refineSessionBy(*store_, "no_landmarks", options, control_);
+  EXPECT_TRUE(refined.status.ok()) << refined.status.message;
+}
+
+TEST_F(SessionJobs, CancelledIcpLeavesTheSessionAsItWas)
+{
+  const std::string before = fingerprint(*store_, WALK);
+  base::JobControl* hand = nullptr;
+  base::JobControl control(
+      [&](const base::Progress& progress)
+      {
+        if (progress.stage == "multi-view icp")
+          hand->cancel();
+      });
+  hand = &control;
+  RefinementOptions options;
+  options.method = RefinementMethod::BOTH;
+  EXPECT_THROW(refineSessionBy(*store_, WALK, options, control), base::Cancelled);
+  EXPECT_EQ(fingerprint(*store_, WALK), before);
 }
 
 TEST_F(SessionJobs, SayWhatIsMissing)

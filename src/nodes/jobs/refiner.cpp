@@ -1,6 +1,6 @@
 #include "refiner.h"
 
-#include "object_modelling/pipeline/session_jobs.h"
+#include "object_modelling/pipeline/session_refinement.h"
 #include "object_modelling/ros_bridge/pose_conversion.h"
 #include "session_list.h"
 
@@ -34,22 +34,68 @@ object_modelling::KeyframeLink toMessage(const refinement::KeyframeLink& link)
   return message;
 }
 
-object_modelling::SessionRefinement toMessage(const std::string& session_id,
-                                              const refinement::BundleAdjustmentResult& result)
+void addBundle(const refinement::BundleAdjustmentResult& result, object_modelling::SessionRefinement* message)
+{
+  message->iterations = result.iterations;
+  message->initial_cost = result.initial_cost;
+  message->final_cost = result.final_cost;
+  message->color_offset_px = { result.color_offset_px.x(), result.color_offset_px.y() };
+  for (const refinement::KeyframeResidual& residual : result.residuals)
+    message->residuals.push_back(toMessage(residual));
+  for (const refinement::KeyframeLink& link : result.links)
+    message->links.push_back(toMessage(link));
+  message->left_out.assign(result.left_out.begin(), result.left_out.end());
+}
+
+void addIcp(const refinement::MultiViewIcpResult& result, object_modelling::SessionRefinement* message)
+{
+  message->icp_status = ros_bridge::toMessage(result.status);
+  message->icp_iterations = result.iterations;
+  message->icp_rmse_m = result.rmse_m;
+  message->icp_left_out.assign(result.left_out.begin(), result.left_out.end());
+  for (const refinement::IcpKeyframeResidual& residual : result.residuals)
+  {
+    object_modelling::IcpResidual added;
+    added.keyframe_id = residual.keyframe_id;
+    added.point_count = residual.point_count;
+    added.rmse_before_m = residual.rmse_before_m;
+    added.rmse_after_m = residual.rmse_after_m;
+    added.inlier_ratio = residual.inlier_ratio;
+    for (const refinement::FreeDirection& free : result.free_directions)
+      added.free_direction_count += free.keyframe_id == residual.keyframe_id;
+    message->icp_residuals.push_back(added);
+  }
+}
+
+object_modelling::SessionRefinement toMessage(const std::string& session_id, const pipeline::SessionRefinement& refined)
 {
   object_modelling::SessionRefinement message;
   message.session_id = session_id;
-  message.status = ros_bridge::toMessage(result.status);
-  message.iterations = result.iterations;
-  message.initial_cost = result.initial_cost;
-  message.final_cost = result.final_cost;
-  message.color_offset_px = { result.color_offset_px.x(), result.color_offset_px.y() };
-  for (const refinement::KeyframeResidual& residual : result.residuals)
-    message.residuals.push_back(toMessage(residual));
-  for (const refinement::KeyframeLink& link : result.links)
-    message.links.push_back(toMessage(link));
-  message.left_out.assign(result.left_out.begin(), result.left_out.end());
+  message.status = ros_bridge::toMessage(refined.status);
+  if (refined.bundle_adjustment)
+    addBundle(*refined.bundle_adjustment, &message);
+  if (refined.multi_view_icp)
+    addIcp(*refined.multi_view_icp, &message);
   return message;
+}
+
+pipeline::RefinementMethod methodOf(const object_modelling::RefineGoal& goal, const RefinerOptions& options)
+{
+  using object_modelling::RefineGoal;
+  switch (goal.method)
+  {
+    case RefineGoal::DEFAULT:
+      return pipeline::refinementMethodFrom(options.method);
+    case RefineGoal::BUNDLE_ADJUSTMENT:
+      return pipeline::RefinementMethod::BUNDLE_ADJUSTMENT;
+    case RefineGoal::MULTI_VIEW_ICP:
+      return pipeline::RefinementMethod::MULTI_VIEW_ICP;
+    case RefineGoal::BOTH:
+      return pipeline::RefinementMethod::BOTH;
+    default:
+      throw base::Error(base::StatusCode::INVALID_ARGUMENT,
+                        "method " + std::to_string(goal.method) + " is not known: see the constants of RefineGoal");
+  }
 }
 }  // namespace
 
@@ -66,12 +112,14 @@ Refiner::Refiner(ros::NodeHandle& node, ros::NodeHandle& private_node, const Ref
 object_modelling::RefineResult Refiner::refine(const object_modelling::RefineGoal& goal, base::JobControl& control)
 {
   requireSessions(goal.session_ids);
+  pipeline::RefinementOptions options = options_.refinement;
+  options.method = methodOf(goal, options_);
   object_modelling::RefineResult result;
   for (const std::string& session_id : goal.session_ids)
   {
-    refinement::BundleAdjustmentResult refined;
-    const base::Status thrown = ros_bridge::guarded(
-        [&] { refined = pipeline::refineSession(store_, session_id, options_.bundle_adjustment, control); });
+    pipeline::SessionRefinement refined;
+    const base::Status thrown =
+        ros_bridge::guarded([&] { refined = pipeline::refineSessionBy(store_, session_id, options, control); });
     if (!thrown.ok())
       refined.status = thrown;
     result.sessions.push_back(toMessage(session_id, refined));

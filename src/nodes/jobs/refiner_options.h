@@ -5,19 +5,22 @@
 
 #include "../common/store_parameters.h"
 #include "object_modelling/base/options.h"
-#include "object_modelling/refinement/bundle_adjustment.h"
+#include "object_modelling/pipeline/session_refinement.h"
 
 namespace object_modelling::nodes
 {
 struct RefinerOptions
 {
-  refinement::BundleAdjustmentOptions bundle_adjustment;
+  std::string method = "bundle_adjustment";  ///< bundle_adjustment, multi_view_icp or both, where a goal names none
+  pipeline::RefinementOptions refinement;
   ros_bridge::RemoteSessionStoreOptions store;
 
   std::vector<std::string> violations() const
   {
     base::OptionsCheck check("refiner");
-    check.include(bundle_adjustment.violations());
+    check.require("method", method == "bundle_adjustment" || method == "multi_view_icp" || method == "both",
+                  "must be bundle_adjustment, multi_view_icp or both");
+    check.include(refinement.violations());
     return check.violations();
   }
 };
@@ -25,7 +28,8 @@ struct RefinerOptions
 template <typename Reader>
 void read(Reader& reader, RefinerOptions* options)
 {
-  refinement::BundleAdjustmentOptions& adjustment = options->bundle_adjustment;
+  refinement::BundleAdjustmentOptions& adjustment = options->refinement.bundle_adjustment;
+  reader.read("method", options->method);
   reader.read("bundle_adjustment/pixel_sigma_px", adjustment.pixel_sigma_px);
   reader.read("bundle_adjustment/loss_width_sigmas", adjustment.loss_width_sigmas);
   reader.read("bundle_adjustment/min_observations_per_landmark", adjustment.min_observations_per_landmark);
@@ -38,6 +42,19 @@ void read(Reader& reader, RefinerOptions* options)
   reader.read("bundle_adjustment/object_only", adjustment.object_only);
   reader.read("bundle_adjustment/threads", adjustment.threads);
   reader.read("bundle_adjustment/seed", adjustment.seed);
+  refinement::MultiViewIcpOptions& icp = options->refinement.multi_view_icp;
+  reader.read("multi_view_icp/object_only", icp.object_only);
+  reader.read("multi_view_icp/start_error_m", icp.start_error_m);
+  reader.read("multi_view_icp/points_per_keyframe", icp.points_per_keyframe);
+  reader.read("multi_view_icp/max_partners", icp.max_partners);
+  reader.read("multi_view_icp/min_overlap_ratio", icp.min_overlap_ratio);
+  reader.read("multi_view_icp/max_view_angle_rad", icp.max_view_angle_rad);
+  reader.read("multi_view_icp/max_normal_angle_rad", icp.max_normal_angle_rad);
+  reader.read("multi_view_icp/min_edge_distance_px", icp.min_edge_distance_px);
+  reader.read("multi_view_icp/loss_width_sigmas", icp.loss_width_sigmas);
+  reader.read("multi_view_icp/color_weight", icp.color_weight);
+  reader.read("multi_view_icp/max_iterations", icp.max_iterations);
+  reader.read("multi_view_icp/threads", icp.threads);
   read(reader, &options->store);
 }
 

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "object_modelling/keyframes/session_store.h"
+#include "object_modelling/refinement/bundle_adjustment.h"
+#include "object_modelling/refinement/multi_view_icp.h"
+
+namespace object_modelling::pipeline
+{
+enum class RefinementMethod
+{
+  BUNDLE_ADJUSTMENT,
+  MULTI_VIEW_ICP,
+  BOTH  ///< bundle adjustment, then multi-view ICP from where that ends
+};
+
+struct RefinementOptions
+{
+  RefinementMethod method = RefinementMethod::BUNDLE_ADJUSTMENT;
+  refinement::BundleAdjustmentOptions bundle_adjustment;
+  refinement::MultiViewIcpOptions multi_view_icp;  ///< after bundle adjustment its start_error_m is AFTER_BUNDLE_M
+  std::vector<std::string> violations() const;
+};
+
+/// How far surfaces are off, at most, where bundle adjustment has converged.
+constexpr double AFTER_BUNDLE_M = 0.005;
+
+struct SessionRefinement
+{
+  /// OK if one of the steps succeeded. One that fails leaves the poses to the other; both tell their own status.
+  base::Status status;
+  std::vector<Eigen::Isometry3d> T_session_camera;  ///< after the last step that succeeded
+  std::optional<refinement::BundleAdjustmentResult> bundle_adjustment;
+  std::optional<refinement::MultiViewIcpResult> multi_view_icp;
+};
+
+/// Refines the keyframe poses of one stored session and writes them back in one step if that succeeded. Sessions that
+/// were tracked on their object are refined by it alone. Throws base::Error for store errors, base::Cancelled; the
+/// store then stays as it was.
+SessionRefinement refineSessionBy(keyframes::SessionStore& store, const std::string& session_id,
+                                  RefinementOptions options, base::JobControl& control);
+
+/// "bundle_adjustment", "multi_view_icp" or "both"; INVALID_ARGUMENT for anything else.
+RefinementMethod refinementMethodFrom(const std::string& name);
+
+}  // namespace object_modelling::pipeline

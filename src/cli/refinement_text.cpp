@@ -1,0 +1,84 @@
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+#include "report_text.h"
+
+namespace object_modelling::cli
+{
+nlohmann::json toJson(const refinement::MultiViewIcpResult& result)
+{
+  nlohmann::json keyframes = nlohmann::json::array(), pairs = keyframes, free = keyframes;
+  for (const refinement::IcpKeyframeResidual& residual : result.residuals)
+    keyframes.push_back({ { "keyframe_id", residual.keyframe_id },
+                          { "point_count", residual.point_count },
+                          { "rmse_before_m", residual.rmse_before_m },
+                          { "rmse_after_m", residual.rmse_after_m },
+                          { "inlier_ratio", residual.inlier_ratio } });
+  for (const refinement::IcpPair& pair : result.pairs)
+    pairs.push_back({ { "keyframe_a", pair.keyframe_a },
+                      { "keyframe_b", pair.keyframe_b },
+                      { "overlap_ratio", pair.overlap_ratio },
+                      { "point_count", pair.point_count },
+                      { "rmse_before_m", pair.rmse_before_m },
+                      { "rmse_after_m", pair.rmse_after_m } });
+  for (const refinement::FreeDirection& direction : result.free_directions)
+    free.push_back(
+        { { "keyframe_id", direction.keyframe_id },
+          { "kind", direction.rotation ? "rotation" : "translation" },
+          { "axis", { direction.axis_session.x(), direction.axis_session.y(), direction.axis_session.z() } } });
+  return { { "status", toJson(result.status) },
+           { "converged", result.converged },
+           { "iterations", result.iterations },
+           { "rmse_m", result.rmse_m },
+           { "left_out", result.left_out },
+           { "keyframes", keyframes },
+           { "pairs", pairs },
+           { "free_directions", free } };
+}
+
+nlohmann::json toJson(const pipeline::SessionRefinement& refined)
+{
+  nlohmann::json json = { { "status", toJson(refined.status) } };
+  if (refined.bundle_adjustment)
+    json = toJson(*refined.bundle_adjustment);
+  if (refined.multi_view_icp)
+    json["multi_view_icp"] = toJson(*refined.multi_view_icp);
+  json["status"] = toJson(refined.status);
+  return json;
+}
+
+std::string toText(const refinement::MultiViewIcpResult& result)
+{
+  if (!result.status.ok())
+    return "aligned   " + result.status.message + "\n";
+  double squared_before = 0, squared_after = 0, count = 0;
+  for (const refinement::IcpPair& pair : result.pairs)
+  {
+    squared_before += pair.point_count * pair.rmse_before_m * pair.rmse_before_m;
+    squared_after += pair.point_count * pair.rmse_after_m * pair.rmse_after_m;
+    count += pair.point_count;
+  }
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(2) << "aligned   " << result.residuals.size() << " keyframes in "
+      << result.pairs.size() << " overlaps, " << result.iterations << " iterations; surfaces "
+      << 1000 * std::sqrt(squared_before / std::max(1.0, count)) << " -> "
+      << 1000 * std::sqrt(squared_after / std::max(1.0, count)) << " mm RMSE";
+  if (!result.left_out.empty())
+    out << "; " << result.left_out.size() << " left out (overlap with none, or do not fit)";
+  if (!result.free_directions.empty())
+    out << "; " << result.free_directions.size() << " directions of keyframes are held by nothing";
+  return out.str() + "\n";
+}
+
+std::string toText(const pipeline::SessionRefinement& refined)
+{
+  std::string text;
+  if (refined.bundle_adjustment)
+    text += toText(*refined.bundle_adjustment);
+  if (refined.multi_view_icp)
+    text += toText(*refined.multi_view_icp);
+  return text.empty() ? "refined   " + refined.status.message + "\n" : text;
+}
+
+}  // namespace object_modelling::cli

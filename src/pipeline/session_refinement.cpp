@@ -1,0 +1,120 @@
+#include "object_modelling/pipeline/session_refinement.h"
+
+#include <algorithm>
+
+#include "object_modelling/base/options.h"
+#include "object_modelling/segmentation/object_follower.h"
+#include "session_loading.h"
+
+namespace object_modelling::pipeline
+{
+namespace
+{
+/// Turntables count for the motion of their objects, and are not in the stored masks. The tracker knows better than a
+/// single view whether something is one: it has landmarks there.
+void addTurntables(std::vector<rgbd::Keyframe>* keyframes)
+{
+  constexpr int MIN_LANDMARKS = 5;
+  for (rgbd::Keyframe& keyframe : *keyframes)
+  {
+    if (keyframe.frame.object_mask.empty())
+      continue;
+    const cv::Mat turntable = segmentation::findTurntable(keyframe.frame);
+    const auto landmarks = std::count_if(
+        keyframe.observations.begin(), keyframe.observations.end(),
+        [&](const rgbd::Observation& seen)
+        {
+          const cv::Point pixel(cvRound(seen.pixel.x()), cvRound(seen.pixel.y()));
+          return cv::Rect({ 0, 0 }, turntable.size()).contains(pixel) && turntable.at<std::uint8_t>(pixel) != 0;
+        });
+    if (landmarks >= MIN_LANDMARKS)
+      keyframe.frame.object_mask = keyframe.frame.object_mask | turntable;
+  }
+}
+
+/// Takes over the outcome of one step; false if it failed.
+template <typename Result>
+bool takeOver(const Result& result, std::vector<rgbd::Keyframe>* keyframes)
+{
+  if (!result.status.ok())
+    return false;
+  for (std::size_t i = 0; i < keyframes->size(); ++i)
+  {
+    (*keyframes)[i].T_session_camera = result.T_session_camera[i];
+    (*keyframes)[i].covariance =
+        i < result.covariance.size() ? result.covariance[i] : geometry::Matrix6d(geometry::Matrix6d::Zero());
+  }
+  return true;
+}
+}  // namespace
+
+std::vector<std::string> RefinementOptions::violations() const
+{
+  base::OptionsCheck check("refinement");
+  check.include(bundle_adjustment.violations());
+  check.include(multi_view_icp.violations());
+  return check.violations();
+}
+
+SessionRefinement refineSessionBy(keyframes::SessionStore& store, const std::string& session_id,
+                                  RefinementOptions options, base::JobControl& control)
+{
+  base::checked(options);
+  const keyframes::Session session = store.session(session_id);
+  options.bundle_adjustment.object_only |= session.reference_is_object;
+  options.multi_view_icp.object_only |= session.reference_is_object;
+  std::vector<rgbd::Keyframe> keyframes = loadReported(store, session_id, control);
+  SessionRefinement refined;
+  if (keyframes.empty())
+  {
+    refined.status = noKeyframes(session_id);
+    return refined;
+  }
+  if (options.bundle_adjustment.object_only)
+    addTurntables(&keyframes);
+  bool moved = false;
+  if (options.method != RefinementMethod::MULTI_VIEW_ICP)
+  {
+    refined.bundle_adjustment = refinement::adjustBundle(keyframes, options.bundle_adjustment, control);
+    moved = takeOver(*refined.bundle_adjustment, &keyframes);
+    refined.status = refined.bundle_adjustment->status;
+  }
+  if (options.method != RefinementMethod::BUNDLE_ADJUSTMENT)
+  {
+    if (moved)
+    {
+      options.multi_view_icp.start_error_m = std::min(AFTER_BUNDLE_M, options.multi_view_icp.start_error_m);
+      options.multi_view_icp.color_offset_px = refined.bundle_adjustment->color_offset_px;
+    }
+    refined.multi_view_icp = refinement::refineByMultiViewIcp(keyframes, options.multi_view_icp, control);
+    const bool aligned = takeOver(*refined.multi_view_icp, &keyframes);
+    if (!moved)
+      refined.status = refined.multi_view_icp->status;
+    moved |= aligned;
+  }
+  for (const rgbd::Keyframe& keyframe : keyframes)
+    refined.T_session_camera.push_back(keyframe.T_session_camera);
+  if (!moved)
+    return refined;
+  control.checkCancelled();
+  std::vector<keyframes::PoseUpdate> updates;
+  for (const rgbd::Keyframe& keyframe : keyframes)
+    updates.push_back({ keyframe.id, keyframe.T_session_camera, keyframe.covariance });
+  store.updatePoses(session_id, updates);
+  return refined;
+}
+
+RefinementMethod refinementMethodFrom(const std::string& name)
+{
+  if (name == "bundle_adjustment")
+    return RefinementMethod::BUNDLE_ADJUSTMENT;
+  if (name == "multi_view_icp")
+    return RefinementMethod::MULTI_VIEW_ICP;
+  if (name == "both")
+    return RefinementMethod::BOTH;
+  throw base::Error(base::StatusCode::INVALID_ARGUMENT, "refinement method '" + name +
+                                                            "' is not known: use bundle_adjustment, multi_view_icp or "
+                                                            "both");
+}
+
+}  // namespace object_modelling::pipeline
