@@ -1,175 +1,199 @@
-// benchmark_refinement <TUM-style folder> <output prefix> [scene|object] [threads]
-// Tracks a recording, refines its keyframes, and prints residuals, links, closures and times. Writes, in TUM format,
-// <prefix>_live.txt, <prefix>_corrected.txt (all frames), <prefix>_keyframes_before.txt and <prefix>_keyframes.txt.
-#include <sys/resource.h>
-
+// Tracks recordings, refines their keyframes in several ways, and prints accuracy, time and memory as a table.
+// benchmark_refinement --help; docs/refinement.md.
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
-#include <string>
-#include <vector>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
 
-#include "object_modelling/refinement/bundle_adjustment.h"
-#include "object_modelling/refinement/trajectory_correction.h"
-#include "object_modelling/rgbd/frame_builder.h"
-#include "object_modelling/source/tum_folder.h"
-#include "object_modelling/tracking/camera_tracker.h"
+#include <glog/logging.h>
+#include <CLI/CLI.hpp>
 
-namespace object_modelling
-{
+#include "object_modelling/pipeline/session_jobs.h"
+#include "refinement_table.h"
+
 namespace
 {
-constexpr double DEGREES = 180 / 3.14159265358979323846;
+using namespace object_modelling;
+using namespace object_modelling::benchmark_refinement;
 
-double wallTime_s()
+struct Arguments
 {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-double cpuTime_s()
-{
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-         1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
-}
-
-/// Prints when a new stage begins.
-class StageClock
-{
-public:
-  void enter(const std::string& stage)
-  {
-    if (stage == stage_)
-      return;
-    const double wall_s = wallTime_s(), cpu_s = cpuTime_s();
-    if (!stage_.empty())
-      std::printf("%-20s %6.2f s, %6.2f s of cores\n", stage_.c_str(), wall_s - wall_s_, cpu_s - cpu_s_);
-    stage_ = stage;
-    wall_s_ = wall_s;
-    cpu_s_ = cpu_s;
-  }
-
-private:
-  std::string stage_;
-  double wall_s_ = 0, cpu_s_ = 0;
+  std::vector<std::string> recordings;
+  std::vector<std::string> methods = { "ba", "icp", "ba+icp" };
+  std::vector<std::size_t> keyframes;
+  std::vector<double> disturbance = { 0, 0 };
+  double keyframe_angle_deg = 0;
+  bool object_reference = false, from_truth = false;
+  MeasureOptions measure;
+  std::string store, out, json;
 };
 
-struct Recording
+/// The last two path components, for "session_1" says little.
+std::string nameOf(const std::string& recording)
 {
-  std::vector<source::StampedPose> live;
-  std::vector<rgbd::Keyframe> keyframes;
-  int frames = 0;
-};
+  const std::filesystem::path path = std::filesystem::absolute(recording + "/").parent_path().lexically_normal();
+  return path.parent_path().filename().string() + "_" + path.filename().string();
+}
 
-Recording track(const std::string& folder, tracking::Reference reference)
+/// Keyframes of a recording, with masks if only the object counts; kept in the store, if there is one, for next time.
+std::vector<rgbd::Keyframe> keyframesOf(const std::string& recording, const Arguments& arguments)
 {
-  const std::unique_ptr<source::FrameSource> recording = source::openTumFolder(folder);
-  rgbd::FrameBuilder builder;
-  tracking::CameraTrackerOptions options;
-  options.reference = reference;
-  tracking::CameraTracker tracker(options);
-  Recording result;
-  while (const std::optional<rgbd::RawFrame> raw = recording->next())
+  std::unique_ptr<keyframes::SessionStore> store;
+  const std::string id = nameOf(recording);
+  if (!arguments.store.empty())
   {
-    ++result.frames;
-    const base::Result<rgbd::Frame> frame = builder.build(*raw);
-    if (!frame.ok())
+    store = keyframes::openSqlStore(arguments.store);
+    for (const keyframes::Session& session : store->listSessions())
+      if (session.id == id)
+        return keyframes::loadKeyframes(*store, id);
+  }
+  benchmark_tracking::RunOptions options;
+  options.object_reference = arguments.object_reference;
+  options.seed = arguments.measure.seed;
+  options.keep_keyframes = true;
+  options.keyframe_angle_rad = arguments.keyframe_angle_deg * M_PI / 180;
+  std::vector<rgbd::Keyframe> tracked = benchmark_tracking::trackRecording(recording, options).keyframes;
+  if (arguments.measure.object_only && !arguments.object_reference)
+  {
+    const segmentation::SessionMasks masks = segmentation::segmentSession(tracked, std::nullopt, {});
+    if (!masks.status.ok())
+      throw base::Error(masks.status.code, "'" + recording + "': " + masks.status.message);
+    for (std::size_t k = 0; k < tracked.size(); ++k)
+      tracked[k].frame.object_mask = masks.masks[k];
+  }
+  if (!store)
+    return tracked;
+  keyframes::Session session;
+  session.id = id;
+  session.reference_is_object = arguments.object_reference;
+  store->createSession(session);
+  for (const rgbd::Keyframe& keyframe : tracked)
+    store->addKeyframe(id, keyframe);
+  return tracked;
+}
+
+void writePoses(const std::string& path, const std::vector<rgbd::Keyframe>& keyframes,
+                const std::vector<Eigen::Isometry3d>& T_session_camera)
+{
+  std::vector<source::StampedPose> poses;
+  for (std::size_t k = 0; k < keyframes.size(); ++k)
+    poses.push_back({ keyframes[k].frame.stamp_s, T_session_camera[k] });
+  source::writeTrajectory(path, poses);
+}
+
+/// The true poses, as a start, in place of the tracker's; those without a truth keep theirs and are dropped.
+void placeByTruth(const std::vector<source::StampedPose>& truth, std::vector<rgbd::Keyframe>* keyframes)
+{
+  constexpr double TOLERANCE_S = 0.02;
+  std::vector<rgbd::Keyframe> placed;
+  for (rgbd::Keyframe& keyframe : *keyframes)
+  {
+    const auto nearest = std::min_element(
+        truth.begin(), truth.end(),
+        [&](const source::StampedPose& a, const source::StampedPose& b)
+        { return std::abs(a.stamp_s - keyframe.frame.stamp_s) < std::abs(b.stamp_s - keyframe.frame.stamp_s); });
+    if (nearest == truth.end() || std::abs(nearest->stamp_s - keyframe.frame.stamp_s) > TOLERANCE_S)
       continue;
-    const tracking::TrackingResult tracked = tracker.track(frame.value);
-    if (!tracked.tracked())
-      continue;
-    result.live.push_back({ tracked.stamp_s, tracked.T_session_camera });
-    if (tracked.keyframe)
-      result.keyframes.push_back(*tracked.keyframe);
+    keyframe.T_session_camera = nearest->T_map_camera;
+    placed.push_back(keyframe);
   }
-  return result;
+  *keyframes = std::move(placed);
 }
 
-void printResult(const refinement::BundleAdjustmentResult& result)
+void measureRecording(const std::string& recording, const Arguments& arguments, nlohmann::json* json)
 {
-  std::printf("status %d %s\ncost %.1f -> %.1f in %d iterations, %zu left out\n", static_cast<int>(result.status.code),
-              result.status.message.c_str(), result.initial_cost, result.final_cost, result.iterations,
-              result.left_out.size());
-  for (const refinement::KeyframeResidual& residual : result.residuals)
+  const std::string truth_path = recording + "/groundtruth.txt";
+  std::vector<source::StampedPose> truth;
+  if (std::filesystem::exists(truth_path))
+    truth = source::readTrajectory(truth_path);
+  std::vector<rgbd::Keyframe> all = keyframesOf(recording, arguments);
+  if (arguments.from_truth)
+    placeByTruth(truth, &all);
+  std::vector<std::size_t> counts = arguments.keyframes;
+  if (counts.empty())
+    counts.push_back(all.size());
+  for (const std::size_t count : counts)
   {
-    std::printf("keyframe %3d: %4d observations, %.2f -> %.2f px, %.2f -> %.2f mm\n", residual.keyframe_id,
-                residual.observation_count, residual.reprojection_rmse_before_px, residual.reprojection_rmse_after_px,
-                1e3 * residual.depth_rmse_before_m, 1e3 * residual.depth_rmse_after_m);
+    std::vector<rgbd::Keyframe> keyframes = evenlyChosen(all, count);
+    disturb(1e-3 * arguments.disturbance[0], arguments.disturbance[1] * M_PI / 180, arguments.measure.seed, &keyframes);
+    for (const std::string& method : arguments.methods)
+    {
+      const Measurement measurement = measure(method, keyframes, truth, arguments.measure);
+      std::cout << toRow(nameOf(recording), measurement) << std::flush;
+      json->push_back(toJson(nameOf(recording), measurement));
+      if (!arguments.out.empty())
+        writePoses(
+            arguments.out + "/" + nameOf(recording) + "_" + std::to_string(keyframes.size()) + "_" + method + ".txt",
+            keyframes, measurement.T_session_camera);
+    }
   }
-  const auto print_link = [](const char* kind, const refinement::KeyframeLink& link)
-  {
-    std::printf("%s %3d %3d: %4d matches, %6.1f mm %5.2f deg -> %5.1f mm %5.2f deg\n", kind, link.keyframe_a,
-                link.keyframe_b, link.inlier_count, 1e3 * link.translation_error_before_m,
-                DEGREES * link.rotation_error_before_rad, 1e3 * link.translation_error_after_m,
-                DEGREES * link.rotation_error_after_rad);
-  };
-  for (const refinement::KeyframeLink& link : result.links)
-    print_link("link    ", link);
-  for (const refinement::KeyframeLink& link : result.rejected_links)
-    print_link("rejected", link);
 }
 
-void writeTrajectories(const std::string& prefix, const Recording& recording,
-                       const refinement::BundleAdjustmentResult& result)
+void run(const Arguments& arguments)
 {
-  std::vector<source::StampedPose> keyframes_before, keyframes_after;
-  std::vector<double> stamps_s;
-  std::vector<Eigen::Isometry3d> before;
-  for (std::size_t k = 0; k < recording.keyframes.size(); ++k)
-  {
-    const rgbd::Keyframe& keyframe = recording.keyframes[k];
-    stamps_s.push_back(keyframe.frame.stamp_s);
-    before.push_back(keyframe.T_session_camera);
-    keyframes_before.push_back({ keyframe.frame.stamp_s, keyframe.T_session_camera });
-    keyframes_after.push_back({ keyframe.frame.stamp_s, result.T_session_camera[k] });
-  }
-  source::writeTrajectory(prefix + "_live.txt", recording.live);
-  source::writeTrajectory(prefix + "_keyframes_before.txt", keyframes_before);
-  source::writeTrajectory(prefix + "_keyframes.txt", keyframes_after);
-  source::writeTrajectory(prefix + "_corrected.txt",
-                          refinement::correctTrajectory(recording.live, stamps_s, before, result.T_session_camera));
+  nlohmann::json json = nlohmann::json::array();
+  std::cout << tableHeader();
+  for (const std::string& recording : arguments.recordings)
+    measureRecording(recording, arguments, &json);
+  if (arguments.json.empty())
+    return;
+  std::ofstream file(arguments.json);
+  file << json.dump(1) << "\n";
+  if (!file.flush())
+    throw base::Error(base::StatusCode::STORAGE, "cannot write '" + arguments.json + "'");
 }
-
-int run(const std::string& folder, const std::string& prefix, bool object_only, int threads)
-{
-  StageClock clock;
-  clock.enter("tracking");
-  const Recording recording = track(folder, object_only ? tracking::Reference::OBJECT : tracking::Reference::SCENE);
-  refinement::BundleAdjustmentOptions options;
-  options.object_only = object_only;
-  options.threads = threads;
-  base::JobControl control([&](const base::Progress& progress) { clock.enter(progress.stage); });
-  const double begin_s = wallTime_s();
-  const refinement::BundleAdjustmentResult result = refinement::adjustBundle(recording.keyframes, options, control);
-  const double end_s = wallTime_s();
-  clock.enter("writing");
-  std::printf("%d frames, %zu tracked, %zu keyframes, refined in %.2f s\n", recording.frames, recording.live.size(),
-              recording.keyframes.size(), end_s - begin_s);
-  printResult(result);
-  writeTrajectories(prefix, recording, result);
-  return result.status.ok() ? EXIT_SUCCESS : EXIT_FAILURE;
-}
-
 }  // namespace
-}  // namespace object_modelling
 
 int main(int argc, char** argv)
 {
-  if (argc < 3)
-  {
-    std::fprintf(stderr, "usage: benchmark_refinement <TUM-style folder> <output prefix> [scene|object] [threads]\n");
-    return EXIT_FAILURE;
-  }
+  google::InitGoogleLogging(argv[0]);
+  FLAGS_logtostderr = true;
+  FLAGS_minloglevel = google::GLOG_WARNING;
+  CLI::App app("Accuracy, time and memory of keyframe refinement on TUM-style recordings.");
+  app.footer(
+      "Errors are those of the keyframes after rigid alignment with groundtruth.txt, before -> after. A recording "
+      "that\n"
+      "is in the store already is not tracked again. Exit codes: 1 failed, 2 wrong usage.");
+  Arguments arguments;
+  refinement::MultiViewIcpOptions& icp = arguments.measure.icp;
+  app.add_option("recordings", arguments.recordings, "TUM-style folders")->required()->check(CLI::ExistingDirectory);
+  app.add_option("--methods", arguments.methods, "Steps joined by '+': ba (bundle adjustment), icp (multi-view)")
+      ->delimiter(',');
+  app.add_option("--keyframes", arguments.keyframes, "So many of the keyframes, evenly; several: one row each")
+      ->delimiter(',');
+  app.add_option("--keyframe-angle", arguments.keyframe_angle_deg, "Degrees between keyframes, for more or fewer")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--disturb", arguments.disturbance, "Move every pose but the first: RMS in mm, in degrees")
+      ->expected(2);
+  app.add_flag("--from-truth", arguments.from_truth, "Start from the true poses, not the tracker's");
+  app.add_flag("--object", arguments.object_reference, "Track the object on the masks, not the scene");
+  app.add_flag("--object-only", arguments.measure.object_only, "Refine by the object alone, found by segmentation");
+  app.add_option("--color-weight", icp.color_weight, "Of multi-view ICP; 0: geometry alone")->capture_default_str();
+  app.add_option("--start-error", icp.start_error_m, "Of multi-view ICP, m")->capture_default_str();
+  app.add_option("--points", icp.points_per_keyframe, "Of multi-view ICP")->capture_default_str();
+  app.add_option("--partners", icp.max_partners, "Of multi-view ICP")->capture_default_str();
+  app.add_flag_callback(
+      "--nearest", [&] { icp.association = refinement::IcpAssociation::NEAREST; },
+      "Multi-view ICP by nearest points, not along viewing rays");
+  app.add_option("--threads", arguments.measure.threads)->capture_default_str()->check(CLI::PositiveNumber);
+  app.add_option("--seed", arguments.measure.seed, "Of tracker, bundle adjustment and disturbance");
+  app.add_option("--store", arguments.store, "SQLite file that keeps the tracked keyframes for next time");
+  app.add_option("--out", arguments.out, "Folder for the refined keyframe poses, TUM format")
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--json", arguments.json, "Also write all figures to this file");
   try
   {
-    return object_modelling::run(argv[1], argv[2], argc > 3 && std::string(argv[3]) == "object",
-                                 argc > 4 ? std::max(1, std::atoi(argv[4])) : 1);
+    app.parse(argc, argv);
+    run(arguments);
   }
-  catch (const object_modelling::base::Error& error)
+  catch (const CLI::ParseError& error)
   {
-    std::fprintf(stderr, "%s\n", error.what());
-    return EXIT_FAILURE;
+    return app.exit(error) == 0 ? 0 : 2;
   }
+  catch (const base::Error& error)
+  {
+    std::cerr << "benchmark_refinement: " << error.what() << std::endl;
+    return 1;
+  }
+  return 0;
 }

@@ -21,13 +21,17 @@ double processMemory_mb(const std::string& key)
       return kilobytes / 1024;
   return 0;
 }
+}  // namespace
 
-/// So that the peak is that of one recording, whatever was tracked before it (proc(5), clear_refs).
+double peakMemory_mb()
+{
+  return processMemory_mb("VmHWM");
+}
+
 void resetPeakMemory()
 {
   std::ofstream("/proc/self/clear_refs") << "5";
 }
-}  // namespace
 
 double wallTime_ms()
 {
@@ -52,7 +56,7 @@ std::vector<source::StampedPose> Run::trajectory() const
 
 Run trackRecording(const std::string& folder, const RunOptions& options)
 {
-  resetPeakMemory();
+  resetPeakMemory();  // the peak is that of this recording, whatever was tracked before it
   // On one core a decoder beside the tracker would be measured with it.
   source::TumFolderOptions folder_options;
   folder_options.decode_ahead = false;
@@ -61,6 +65,8 @@ Run trackRecording(const std::string& folder, const RunOptions& options)
   tracking::CameraTrackerOptions tracker_options;
   tracker_options.reference = options.object_reference ? tracking::Reference::OBJECT : tracking::Reference::SCENE;
   tracker_options.seed = options.seed;
+  if (options.keyframe_angle_rad > 0)
+    tracker_options.keyframe_angle_rad = options.keyframe_angle_rad;
   tracking::CameraTracker tracker(tracker_options);
   Run run;
   for (int index = 0; const std::optional<rgbd::RawFrame> raw = source->next(); ++index)
@@ -89,7 +95,7 @@ Run trackRecording(const std::string& folder, const RunOptions& options)
     run.frames.push_back(std::move(record));
   }
   run.rss_mb = processMemory_mb("VmRSS");
-  run.peak_rss_mb = processMemory_mb("VmHWM");
+  run.peak_rss_mb = peakMemory_mb();
   return run;
 }
 

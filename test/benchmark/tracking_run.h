@@ -14,9 +14,10 @@ struct RunOptions
 {
   bool object_reference = false;
   std::uint64_t seed = 1;
-  int every = 1;                ///< only every Nth frame
-  int skip = 0;                 ///< first frames left out
-  bool keep_keyframes = false;  ///< for refining
+  int every = 1;                  ///< only every Nth frame
+  int skip = 0;                   ///< first frames left out
+  bool keep_keyframes = false;    ///< for refining
+  double keyframe_angle_rad = 0;  ///< instead of the tracker's; 0: as that has it
 };
 
 /// What the tracker said of one frame, without its images, and what it cost.
@@ -43,5 +44,9 @@ Run trackRecording(const std::string& folder, const RunOptions& options);
 /// Time since some fixed point, of the clock and of this process's threads.
 double wallTime_ms();
 double cpuTime_ms();
+
+/// Largest resident memory of the process since resetPeakMemory() (proc(5), clear_refs).
+double peakMemory_mb();
+void resetPeakMemory();
 
 }  // namespace object_modelling::benchmark_tracking
