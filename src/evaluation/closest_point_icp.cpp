@@ -1,0 +1,181 @@
+#include "closest_point_icp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <nanoflann.hpp>
+
+#include "object_modelling/geometry/transform.h"
+
+namespace object_modelling::evaluation
+{
+std::vector<Eigen::Vector3d> thinned(const std::vector<Eigen::Vector3d>& points, std::size_t count)
+{
+  if (points.size() <= count)
+    return points;
+  std::vector<Eigen::Vector3d> kept(count);
+  for (std::size_t i = 0; i < count; ++i)
+    kept[i] = points[i * points.size() / count];
+  return kept;
+}
+
+class SampleTree::Implementation
+{
+public:
+  explicit Implementation(const std::vector<Eigen::Vector3d>& samples)
+      : samples_(samples), tree_(3, *this, nanoflann::KDTreeSingleIndexAdaptorParams(10))
+  {
+    tree_.buildIndex();
+  }
+
+  // The interface that nanoflann asks for.
+  std::size_t kdtree_get_point_count() const { return samples_.size(); }
+  double kdtree_get_pt(std::size_t index, std::size_t axis) const
+  {
+    return samples_[index][static_cast<Eigen::Index>(axis)];
+  }
+  template <typename Box>
+  bool kdtree_get_bbox(Box&) const
+  {
+    return false;
+  }
+
+  std::size_t nearest(const Eigen::Vector3d& query, double* distance_m) const
+  {
+    std::size_t index = 0;
+    double squared = 0;
+    tree_.knnSearch(query.data(), 1, &index, &squared);
+    *distance_m = std::sqrt(squared);
+    return index;
+  }
+
+private:
+  using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Implementation>, Implementation,
+                                                   3, std::size_t>;
+  const std::vector<Eigen::Vector3d>& samples_;
+  Tree tree_;
+};
+
+SampleTree::SampleTree(const std::vector<Eigen::Vector3d>& samples)
+    : samples_(samples), implementation_(std::make_unique<Implementation>(samples_))
+{
+}
+
+SampleTree::~SampleTree() = default;
+
+std::size_t SampleTree::nearest(const Eigen::Vector3d& query, double* distance_m) const
+{
+  return implementation_->nearest(query, distance_m);
+}
+
+namespace
+{
+std::size_t keptCount(std::size_t count, double ratio)
+{
+  return std::min(count, std::max<std::size_t>(6, static_cast<std::size_t>(ratio * static_cast<double>(count))));
+}
+
+double rms(const std::vector<double>& values, std::size_t count)
+{
+  const double sum = std::accumulate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count), 0.0,
+                                     [](double total, double value) { return total + value * value; });
+  return std::sqrt(sum / static_cast<double>(count));
+}
+}  // namespace
+
+Placement trimmedIcp(const std::vector<Eigen::Vector3d>& points, const SampleTree& tree, Placement start,
+                     double overlap_ratio, int iterations)
+{
+  const std::size_t kept = keptCount(points.size(), overlap_ratio);
+  std::vector<std::size_t> order(points.size()), partners(points.size());
+  std::vector<double> distances_m(points.size());
+  Eigen::Matrix3Xd moved(3, kept), targets(3, kept);
+  for (int iteration = 0; iteration < iterations; ++iteration)
+  {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      partners[i] = tree.nearest(start.T_reference_model * points[i], &distances_m[i]);
+    std::iota(order.begin(), order.end(), std::size_t{ 0 });
+    std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(kept) - 1, order.end(),
+                     [&](std::size_t a, std::size_t b)
+                     { return distances_m[a] < distances_m[b] || (distances_m[a] == distances_m[b] && a < b); });
+    double sum_m2 = 0;
+    for (std::size_t k = 0; k < kept; ++k)
+    {
+      const auto column = static_cast<Eigen::Index>(k);
+      moved.col(column) = start.T_reference_model * points[order[k]];
+      targets.col(column) = tree.sample(partners[order[k]]);
+      sum_m2 += distances_m[order[k]] * distances_m[order[k]];
+    }
+    start.rms_m = std::sqrt(sum_m2 / static_cast<double>(kept));
+    Eigen::Isometry3d step;
+    if (!geometry::rigidTransformFromPoints(targets, moved, &step))
+      break;
+    start.T_reference_model = geometry::normalised(step * start.T_reference_model);
+  }
+  return start;
+}
+
+double fitToSurface(const std::vector<Eigen::Vector3d>& points, const ReferenceSurface& surface,
+                    Eigen::Isometry3d* T_reference_model)
+{
+  std::vector<Eigen::Vector3d> moved(points.size()), offsets(points.size());
+  std::vector<double> distances_m(points.size());
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    moved[i] = *T_reference_model * points[i];
+    offsets[i] = moved[i] - surface.closestPoint(moved[i]);
+    distances_m[i] = offsets[i].norm();
+    center += moved[i] / static_cast<double>(points.size());
+  }
+  std::vector<double> sorted = distances_m;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  // Tukey's biweight with 95 % efficiency for normal noise, whose sigma is 1.48 medians of the absolute values.
+  const double width_m = 4.685 * 1.4826 * *middle;
+  const double smallest_m = 1e-12 * surface.diagonal_m();
+
+  using Matrix6d = Eigen::Matrix<double, 6, 6>;
+  Matrix6d A = Matrix6d::Zero();
+  geometry::Vector6d b = geometry::Vector6d::Zero();
+  double radius_m = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    radius_m = std::max(radius_m, (moved[i] - center).norm());
+    if (!(distances_m[i] > smallest_m) || distances_m[i] >= width_m)
+      continue;
+    const double share = distances_m[i] / width_m;
+    const double weight = (1 - share * share) * (1 - share * share);
+    const Eigen::Vector3d normal = offsets[i] / distances_m[i];
+    geometry::Vector6d row;
+    row << normal, (moved[i] - center).cross(normal);
+    A += weight * row * row.transpose();
+    b -= weight * distances_m[i] * row;
+  }
+  // Rotations measured by the radius, so that one damping serves all six.
+  geometry::Vector6d scale = geometry::Vector6d::Ones();
+  scale.tail<3>() /= std::max(radius_m, smallest_m);
+  A = scale.asDiagonal() * A * scale.asDiagonal();
+  A.diagonal().array() += 1e-9 * A.trace() + 1e-30;
+  geometry::Vector6d step = A.ldlt().solve(scale.asDiagonal() * b);
+  const double size_m = step.norm();
+  step = scale.asDiagonal() * step;
+  const Eigen::Isometry3d about_center =
+      Eigen::Translation3d(center) * geometry::isometryFromVector(step) * Eigen::Translation3d(-center);
+  *T_reference_model = geometry::normalised(about_center * *T_reference_model);
+  return size_m;
+}
+
+double trimmedRms_m(const std::vector<Eigen::Vector3d>& points, const ReferenceSurface& surface,
+                    const Eigen::Isometry3d& T_reference_model, double overlap_ratio)
+{
+  std::vector<double> distances_m;
+  distances_m.reserve(points.size());
+  for (const Eigen::Vector3d& point : points)
+    distances_m.push_back(surface.distance_m(T_reference_model * point));
+  std::sort(distances_m.begin(), distances_m.end());
+  return rms(distances_m, keptCount(points.size(), overlap_ratio));
+}
+
+}  // namespace object_modelling::evaluation
