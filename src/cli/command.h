@@ -28,6 +28,7 @@ void addTrackCommand(CLI::App& app, Command* chosen);
 void addModelCommand(CLI::App& app, Command* chosen);
 void addCalibrateNoiseCommand(CLI::App& app, Command* chosen);
 void addInfoCommand(CLI::App& app, Command* chosen);
+void addReportCommand(CLI::App& app, Command* chosen);
 void addCompareCommand(CLI::App& app, Command* chosen);
 
 /// Options that track and model share.

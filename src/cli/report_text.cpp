@@ -169,6 +169,8 @@ std::string toText(const pipeline::BuildReport& report)
       << " points, " << report.triangle_count << " triangles\n"
       << "          " << report.object_folder << "\n"
       << "          " << report.preview_path << "\n";
+  if (!report.status.message.empty())
+    out << "WARNING   " << report.status.message << "\n";
   return out.str();
 }
 

@@ -1,12 +1,15 @@
 #include "content_hash.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <sstream>
 
 #include <openssl/evp.h>
 
+#include "object_modelling/base/atomic_file.h"
 #include "object_modelling/base/status.h"
 
 namespace object_modelling::database
@@ -16,6 +19,9 @@ namespace
 namespace fs = std::filesystem;
 using base::Error;
 using base::StatusCode;
+
+constexpr char SEAL[] = "report.sha256";
+constexpr std::array<const char*, 2> REPORT_FILES{ "quality.yaml", "report.html" };
 
 class Sha256
 {
@@ -80,10 +86,49 @@ std::map<std::string, std::string> hashesOfFolder(const std::string& folder)
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
   {
     const fs::path relative = entry.path().lexically_relative(folder);
-    if (entry.is_regular_file() && relative != "object.yaml" && *relative.begin() != "recognition")
+    const bool of_report =
+        relative == SEAL || std::find(REPORT_FILES.begin(), REPORT_FILES.end(), relative) != REPORT_FILES.end();
+    if (entry.is_regular_file() && relative != "object.yaml" && *relative.begin() != "recognition" && !of_report)
       hashes[relative.generic_string()] = hashOfFile(entry.path().string());
   }
   return hashes;
+}
+
+void sealReport(const std::string& folder)
+{
+  std::string lines;
+  for (const char* file : REPORT_FILES)
+    if (fs::is_regular_file(folder + "/" + file))
+      lines += hashOfFile(folder + "/" + file) + "  " + file + "\n";
+  if (!lines.empty())
+    base::writeTextFile(folder + "/" + SEAL, lines);
+}
+
+std::vector<std::string> checkReport(const std::string& folder)
+{
+  std::map<std::string, std::string> listed;
+  const std::string seal = folder + "/" + SEAL;
+  if (fs::is_regular_file(seal))
+  {
+    std::istringstream lines(base::readTextFile(seal));
+    std::string hash, file;
+    while (lines >> hash >> file)
+      listed[file] = hash;
+  }
+  std::vector<std::string> problems;
+  for (const char* file : REPORT_FILES)
+  {
+    const std::string path = folder + "/" + file;
+    const auto found = listed.find(file);
+    const bool exists = fs::is_regular_file(path);
+    if (exists && found == listed.end())
+      problems.push_back(path + " is not listed in " + SEAL);
+    else if (!exists && found != listed.end())
+      problems.push_back(path + " is missing");
+    else if (exists && hashOfFile(path) != found->second)
+      problems.push_back(path + " has been changed: its SHA-256 is not the one in " + SEAL);
+  }
+  return problems;
 }
 
 }  // namespace object_modelling::database

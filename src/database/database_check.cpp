@@ -79,6 +79,8 @@ void checkObject(const std::string& folder, const std::string& id, const std::st
   checkUnits(path, object.unit, object.handedness, problems);
   checkFrames(path, object.entry, problems);
   checkFiles(folder, object.file_hashes, problems);
+  const Problems of_report = checkReport(folder);
+  problems->insert(problems->end(), of_report.begin(), of_report.end());
 }
 }  // namespace
 

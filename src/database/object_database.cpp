@@ -148,7 +148,7 @@ ObjectEntry ObjectDatabase::entry(const std::string& object_id) const
   return readObject(root_ + "/" + object_id).entry;
 }
 
-std::string ObjectDatabase::write(const ObjectModel& model, base::JobControl& control)
+std::string ObjectDatabase::write(const ObjectModel& model, base::JobControl& control, const ReportMaker& make_report)
 {
   checkModel(model);
   change(root_, model.id, control,
@@ -158,11 +158,28 @@ std::string ObjectDatabase::write(const ObjectModel& model, base::JobControl& co
            writeObjectFiles(folder, model, control);
            const std::string description = objectYaml(model, hashesOfFolder(folder));
            base::writeTextFile(folder + "/object.yaml", description);
+           if (make_report)
+             make_report(folder);
+           sealReport(folder);
            syncFolder(folder);
            control.checkCancelled();
            commitObject(root_, model.id, hashOfText(description));
          });
   return root_ + "/" + model.id;
+}
+
+void ObjectDatabase::remakeReport(const std::string& object_id, base::JobControl& control,
+                                  const ReportMaker& make_report)
+{
+  checkObjectId(object_id);
+  change(root_, object_id, control,
+         [&]
+         {
+           if (readManifest(manifestPath(root_)).objects.count(object_id) == 0)
+             throw notFound(root_, object_id);
+           make_report(root_ + "/" + object_id);
+           sealReport(root_ + "/" + object_id);
+         });
 }
 
 void ObjectDatabase::remove(const std::string& object_id)

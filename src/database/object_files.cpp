@@ -109,6 +109,8 @@ void checkModel(const ObjectModel& model)
     refuse(model, "its size or one of its poses is not finite");
   if (!model.preview_bgr.empty() && model.preview_bgr.type() != CV_8UC3)
     refuse(model, "its preview is not CV_8UC3");
+  if (!model.turntable_bgr.empty() && model.turntable_bgr.type() != CV_8UC3)
+    refuse(model, "its turntable picture is not CV_8UC3");
   for (std::size_t i = 0; i < model.views.size(); ++i)
     checkView(model, i);
 }
@@ -125,6 +127,10 @@ void writeObjectFiles(const std::string& folder, const ObjectModel& model, base:
   surface::writeMesh(folder + "/mesh/mesh.obj", model.mesh);
   if (!model.preview_bgr.empty())
     writeImage(folder + "/preview.png", model.preview_bgr, {});
+  if (!model.turntable_bgr.empty())
+    writeImage(folder + "/turntable.png", model.turntable_bgr, {});
+  if (!model.quality_yaml.empty())
+    writeText(folder + "/quality.yaml", model.quality_yaml);
   control.report(stage, 1, total);
   writeCloud(folder + "/cloud.pcd", model.cloud);
   for (std::size_t i = 0; i < model.views.size(); ++i)

@@ -5,12 +5,16 @@
 
 #include "model_frame.h"
 #include "object_modelling/base/options.h"
+#include "object_modelling/pipeline/report_maker.h"
 #include "object_modelling/surface/mesh_renderer.h"
+#include "quality_report.h"
 
 namespace object_modelling::pipeline
 {
 namespace
 {
+constexpr int TURNTABLE_STEPS = 8;
+
 class StageTimer
 {
 public:
@@ -18,7 +22,7 @@ public:
   void finish(const std::string& stage)
   {
     const auto now = std::chrono::steady_clock::now();
-    (*stage_s_)[stage] = std::chrono::duration<double>(now - start_).count();
+    (*stage_s_)[stage] += std::chrono::duration<double>(now - start_).count();
     start_ = now;
   }
 
@@ -32,6 +36,7 @@ struct Views
 {
   std::vector<keyframes::Session> sessions;
   std::vector<rgbd::Keyframe> keyframes;  // those that see the object; T_session_camera holds T_reference_camera
+  std::vector<ViewOrigin> origins;        // of each of them
   std::optional<geometry::Plane> support_plane_reference;
 };
 
@@ -52,6 +57,7 @@ base::Status loadViews(keyframes::SessionStore& store, const std::vector<alignme
       rgbd::Keyframe keyframe = store.keyframe(placement.session_id, id);
       if (keyframe.frame.object_mask.empty())
         continue;
+      views->origins.push_back({ placement.session_id, id });
       keyframe.id = static_cast<int>(views->keyframes.size());
       keyframe.T_session_camera = placement.T_reference_session * keyframe.T_session_camera;
       views->keyframes.push_back(std::move(keyframe));
@@ -132,6 +138,28 @@ void describe(const Views& views, const std::vector<alignment::SessionPlacement>
   for (std::size_t i = 0; i < placements.size(); ++i)
     model->sessions.push_back({ placements[i].session_id, T_model_reference * placements[i].T_reference_session,
                                 views.sessions[i].keyframe_count });
+}
+/// OK in any case: a model is worth having without its report, but whoever built it is told.
+base::Status reportStatus(const std::string& folder, const std::string& object_id, const std::string& database_root,
+                          base::JobControl& control)
+{
+  control.report("report", 0, 1);
+  try
+  {
+    makeReport(folder, control);
+  }
+  catch (const base::Cancelled&)
+  {
+    throw;
+  }
+  catch (const base::Error& error)
+  {
+    return { base::StatusCode::OK, std::string("the model is built, but report.html could not be made: ") +
+                                       error.what() + "; make it later by 'object_modelling report " + object_id +
+                                       " --database " + database_root + "'" };
+  }
+  control.report("report", 1, 1);
+  return {};
 }
 }  // namespace
 
@@ -225,7 +253,19 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
   for (rgbd::Keyframe& view : model.views)
     view.T_session_camera = *T_model_reference * view.T_session_camera;
 
-  report.object_folder = database.write(model, control);
+  model.turntable_bgr = surface::renderTurntable(model.mesh, TURNTABLE_STEPS);
+  model.quality_yaml = qualityYaml(model, views.sessions, views.origins, options, report.stage_s);
+  timer.finish("describe");
+
+  report.object_folder = database.write(model, control,
+                                        [&](const std::string& folder)
+                                        {
+                                          timer.finish("write");
+                                          if (!options.make_report)
+                                            return;
+                                          report.status = reportStatus(folder, object_id, database.root(), control);
+                                          timer.finish("report");
+                                        });
   report.preview_path = report.object_folder + "/preview.png";
   report.size_m = model.box_model.size_m;
   report.diameter_m = model.diameter_m;

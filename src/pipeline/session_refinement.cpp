@@ -4,6 +4,7 @@
 
 #include "object_modelling/base/options.h"
 #include "object_modelling/segmentation/object_follower.h"
+#include "refinement_report.h"
 #include "session_loading.h"
 
 namespace object_modelling::pipeline
@@ -101,6 +102,14 @@ SessionRefinement refineSessionBy(keyframes::SessionStore& store, const std::str
   for (const rgbd::Keyframe& keyframe : keyframes)
     updates.push_back({ keyframe.id, keyframe.T_session_camera, keyframe.covariance });
   store.updatePoses(session_id, updates);
+  if (refined.bundle_adjustment && refined.bundle_adjustment->status.ok())
+  {
+    keyframes::Session current = store.session(session_id);
+    current.refinement_report = refinementReportYaml(*refined.bundle_adjustment);
+    if (options.bundle_adjustment.calibrate_color_offset)
+      current.calibration.color_offset_px = refined.bundle_adjustment->color_offset_px;
+    store.updateSession(current);
+  }
   return refined;
 }
 

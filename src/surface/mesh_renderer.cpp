@@ -180,11 +180,15 @@ MeshView renderMesh(const geometry::TriangleMesh& mesh, const geometry::PinholeC
   return view;
 }
 
-cv::Mat renderFourSides(const geometry::TriangleMesh& mesh, int tile_size_px)
+namespace
 {
-  if (tile_size_px < 1)
-    throw base::Error(base::StatusCode::INVALID_ARGUMENT,
-                      "tile_size_px = " + std::to_string(tile_size_px) + ": must be at least 1");
+/// `count` sides in tiles, `columns` beside each other.
+cv::Mat renderSides(const geometry::TriangleMesh& mesh, int count, int columns, int tile_size_px)
+{
+  if (tile_size_px < 1 || count < 1)
+    throw base::Error(base::StatusCode::INVALID_ARGUMENT, "tile_size_px = " + std::to_string(tile_size_px) +
+                                                              ", count = " + std::to_string(count) +
+                                                              ": must be at least 1");
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& vertex : mesh.vertices)
     box.extend(vertex);
@@ -203,13 +207,26 @@ cv::Mat renderFourSides(const geometry::TriangleMesh& mesh, int tile_size_px)
   camera.fx = camera.fy = 0.5 * tile_size_px / std::tan(HALF_FIELD_RAD);
   const double distance_m = MARGIN * radius_m / std::sin(HALF_FIELD_RAD);
 
-  cv::Mat picture(2 * tile_size_px, 2 * tile_size_px, CV_8UC3);
-  for (int i = 0; i < 4; ++i)
+  cv::Mat picture(count / columns * tile_size_px, columns * tile_size_px, CV_8UC3);
+  for (int i = 0; i < count; ++i)
   {
-    const MeshView view = renderMesh(mesh, camera, orbit(i * M_PI / 2, ELEVATION_RAD, distance_m) * T_centered_model);
-    view.color_bgr.copyTo(picture(cv::Rect(i % 2 * tile_size_px, i / 2 * tile_size_px, tile_size_px, tile_size_px)));
+    const MeshView view =
+        renderMesh(mesh, camera, orbit(i * 2 * M_PI / count, ELEVATION_RAD, distance_m) * T_centered_model);
+    view.color_bgr.copyTo(
+        picture(cv::Rect(i % columns * tile_size_px, i / columns * tile_size_px, tile_size_px, tile_size_px)));
   }
   return picture;
+}
+}  // namespace
+
+cv::Mat renderFourSides(const geometry::TriangleMesh& mesh, int tile_size_px)
+{
+  return renderSides(mesh, 4, 2, tile_size_px);
+}
+
+cv::Mat renderTurntable(const geometry::TriangleMesh& mesh, int count, int tile_size_px)
+{
+  return renderSides(mesh, count, count, tile_size_px);
 }
 
 }  // namespace object_modelling::surface

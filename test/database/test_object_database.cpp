@@ -248,4 +248,37 @@ TEST(ContentHash, IsSha256)
   EXPECT_EQ(statusOf([&] { hashOfFile(folder.path("y")); }).code, StatusCode::NOT_FOUND);
 }
 
+TEST_F(ObjectDatabaseTest, TheReportIsCheckedButNotPartOfTheContent)
+{
+  ObjectModel model = makeModel("cereal");
+  const std::string folder = write(model);
+  const std::string hash = database_.entry("cereal").content_hash;
+  EXPECT_FALSE(fs::exists(folder + "/report.sha256"));
+
+  base::JobControl control;
+  model.quality_yaml = "schema_version: 1\n";
+  const auto make = [](const std::string& at)
+  { base::writeTextFile(at + "/report.html", fs::exists(at + "/object.yaml") ? "whole" : ""); };
+  database_.write(model, control, make);
+  EXPECT_EQ(base::readTextFile(folder + "/report.html"), "whole");
+  EXPECT_EQ(database_.check(), std::vector<std::string>());
+  EXPECT_EQ(database_.entry("cereal").content_hash, hash);
+
+  base::writeTextFile(folder + "/quality.yaml", "schema_version: 2\n");
+  fs::remove(folder + "/report.html");
+  const std::vector<std::string> problems = database_.check();
+  ASSERT_EQ(problems.size(), 2u);
+  EXPECT_NE(problems[0].find("quality.yaml has been changed"), std::string::npos);
+  EXPECT_NE(problems[1].find("report.html is missing"), std::string::npos);
+  database_.remakeReport("cereal", control, make);
+  EXPECT_EQ(database_.check(), std::vector<std::string>());
+  fs::remove(folder + "/report.sha256");
+  EXPECT_EQ(database_.check().size(), 2u);
+
+  EXPECT_EQ(statusOf([&] { database_.remakeReport("nothing", control, make); }).code, StatusCode::NOT_FOUND);
+  const auto fail = [](const std::string&) { throw base::Error(StatusCode::INTERNAL, "no report"); };
+  EXPECT_TRUE(mentions(statusOf([&] { database_.write(makeModel("cereal", 1), control, fail); }), "no report"));
+  EXPECT_EQ(database_.entry("cereal").content_hash, hash);
+}
+
 }  // namespace object_modelling::database

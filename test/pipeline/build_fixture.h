@@ -19,6 +19,7 @@ protected:
     BuildOptions options;
     options.fusion.resolution_m = options.surface.resolution_m = 0.004;
     options.surface.max_support_distance_m = 0.012;
+    options.make_report = false;
     return options;
   }
   BuildReport build(const std::vector<std::string>& session_ids, const BuildOptions& options = coarse(),

@@ -140,6 +140,9 @@ TEST(MeshRenderer, FourSidesShowEachSideOnceUpright)
     mesh.triangles.push_back({ first, first + 2, first + 3 });
   }
   const int size = 100;
+  const cv::Mat turntable = renderTurntable(mesh, 8, size);
+  ASSERT_EQ(turntable.size(), cv::Size(8 * size, size));
+  EXPECT_THROW(renderTurntable(mesh, 0, size), base::Error);
   const cv::Mat picture = renderFourSides(mesh, size);
   ASSERT_EQ(picture.size(), cv::Size(2 * size, 2 * size));
   for (int side = 0; side < 4; ++side)
@@ -147,6 +150,7 @@ TEST(MeshRenderer, FourSidesShowEachSideOnceUpright)
     const cv::Vec3b at = picture.at<cv::Vec3b>(side / 2 * size + size / 2 + 8, side % 2 * size + size / 2);
     for (int c = 0; c < 3; ++c)
       EXPECT_EQ(at[c] > 60, colors[side][2 - c] > 0) << side << " " << at;
+    EXPECT_EQ(turntable.at<cv::Vec3b>(size / 2 + 8, 2 * side * size + size / 2), at);
   }
 }
 

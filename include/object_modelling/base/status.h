@@ -21,7 +21,7 @@ enum class StatusCode : unsigned char
   INTERNAL = 9,
 };
 
-/// Outcome with a message that names the thing, the value and the remedy. OK has an empty message.
+/// Outcome with a message that names the thing, the value and the remedy. OK has none, or a warning.
 struct Status
 {
   StatusCode code = StatusCode::OK;

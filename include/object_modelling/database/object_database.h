@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct ObjectEntry
   std::string mesh_path;  ///< absolute, mesh/mesh.ply
 };
 
+/// Makes report.html in an object's folder, from what lies there. May throw.
+using ReportMaker = std::function<void(const std::string& folder)>;
+
 /// Throws base::Error (INVALID_ARGUMENT) for names that no object can have: all but keyframes::isValidId(), and the
 /// names of the database's own files.
 void checkObjectId(const std::string& object_id);
@@ -41,7 +45,10 @@ public:
   ObjectEntry entry(const std::string& object_id) const;
   /// Writes or replaces one object in one atomic step; returns its folder. The same model gives the same bytes.
   /// Cancelling leaves the database as it was.
-  std::string write(const ObjectModel& model, base::JobControl& control);
+  /// `make_report` may add report.html to the finished folder before it is put in place.
+  std::string write(const ObjectModel& model, base::JobControl& control, const ReportMaker& make_report = {});
+  /// Runs `make_report` on an object that is there, for a report that is missing or was made by another version.
+  void remakeReport(const std::string& object_id, base::JobControl& control, const ReportMaker& make_report);
   void remove(const std::string& object_id);
   /// Every broken file, hash, unit or frame, one message each; empty when sound.
   std::vector<std::string> check() const;

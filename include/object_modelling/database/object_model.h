@@ -34,6 +34,8 @@ struct ObjectModel
   fusion::FusedCloud cloud;                        ///< in the object frame
   geometry::TriangleMesh mesh;
   cv::Mat preview_bgr;                ///< CV_8UC3, written as preview.png; may be empty
+  cv::Mat turntable_bgr;              ///< CV_8UC3, written as turntable.png; may be empty
+  std::string quality_yaml;           ///< written as quality.yaml; may be empty
   std::vector<rgbd::Keyframe> views;  ///< T_session_camera holds T_model_camera
 };
 

@@ -23,7 +23,7 @@ struct Session
   std::optional<Eigen::Isometry3d> T_model_session;      ///< placed in the model frame; empty until aligned
   /// Of the sensor that recorded it; what the noise model knows of bias is off the stored depth already.
   rgbd::SensorCalibration calibration;
-  std::string refinement_report;  ///< how the poses were refined; empty if they never were
+  std::string refinement_report;  ///< YAML of the last bundle adjustment; empty if there was none
 };
 
 /// Whether a name can be used as session or object id everywhere (files, topics, SQL): 1 to 64 of [A-Za-z0-9_.-], not

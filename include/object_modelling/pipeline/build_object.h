@@ -18,12 +18,13 @@ struct BuildOptions
   fusion::CloudFusionOptions fusion;
   surface::SurfaceOptions surface;
   bool replace = false;  ///< allow another object frame for an object that exists with none of these sessions
+  bool make_report = true;  ///< report.html, which takes a few seconds
   std::vector<std::string> violations() const;
 };
 
 struct BuildReport
 {
-  base::Status status;
+  base::Status status;  ///< OK with a message: the model is there, its report.html is not
   std::string object_folder;
   std::string preview_path;                          ///< PNG of four sides, inside the object's folder
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  ///< along the object frame's x, y, z
@@ -32,9 +33,9 @@ struct BuildReport
   std::map<std::string, double> stage_s;  ///< seconds by stage
 };
 
-/// Fused cloud, mesh and views of one object from its placed sessions, written into the database in one atomic step;
-/// sets object_id and T_model_session of the sessions in the store. Refuses with the reason: no session, no keyframes,
-/// no masks, an existing object in another frame (unless `replace`).
+/// Fused cloud, mesh, views and report of one object from its placed sessions, written into the database in one atomic
+/// step; sets object_id and T_model_session of the sessions in the store. Refuses with the reason: no session, no
+/// keyframes, no masks, an existing object in another frame (unless `replace`).
 BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase& database,
                         const std::string& object_id, const std::string& name,
                         const std::vector<alignment::SessionPlacement>& placements, const BuildOptions& options,

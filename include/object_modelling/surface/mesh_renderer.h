@@ -24,4 +24,7 @@ MeshView renderMesh(const geometry::TriangleMesh& mesh, const geometry::PinholeC
 /// One picture of four sides (0, 90, 180, 270 deg about z, seen from 25 deg above), z of the mesh up.
 cv::Mat renderFourSides(const geometry::TriangleMesh& mesh, int tile_size_px = 480);
 
+/// The mesh turned about z in `count` equal steps, seen from 25 deg above, side by side.
+cv::Mat renderTurntable(const geometry::TriangleMesh& mesh, int count, int tile_size_px = 320);
+
 }  // namespace object_modelling::surface

@@ -58,7 +58,7 @@ object_modelling::BuiltObject toMessage(const pipeline::BuildReport& report, con
   message.point_count = report.point_count;
   message.vertex_count = report.vertex_count;
   message.triangle_count = report.triangle_count;
-  for (const char* stage : { "load", "fuse", "surface", "write" })
+  for (const char* stage : { "load", "fuse", "surface", "describe", "write", "report" })
   {
     const auto found = report.stage_s.find(stage);
     if (found == report.stage_s.end())

@@ -1,0 +1,95 @@
+"""What the report tells, read from an object's folder."""
+import os
+
+import yaml
+
+# Limits of the traffic lights, on root mean squares over a keyframe's observations after bundle adjustment.
+GREEN_PX, AMBER_PX = 0.5, 1.0
+GREEN_M, AMBER_M = 0.003, 0.006
+FEW_OBSERVATIONS = 20
+
+
+class ReportError(Exception):
+    """Why there is no report; the message names the thing and the remedy."""
+
+
+class Keyframe:
+    """One keyframe of a session and how well it fits the others."""
+
+    def __init__(self, session_id, keyframe_id, residual=None, left_out=False, position_m=None):
+        self.session_id = session_id
+        self.keyframe_id = keyframe_id
+        self.residual = residual
+        self.left_out = left_out
+        self.position_m = position_m
+
+    @property
+    def light(self):
+        """green, amber, red, or grey where nothing was measured."""
+        if self.left_out:
+            return "red"
+        if self.residual is None:
+            return "grey"
+        pixels, metres = self.residual["reprojection_rmse_after_px"], self.residual["depth_rmse_after_m"]
+        if pixels > AMBER_PX or metres > AMBER_M:
+            return "red"
+        if pixels > GREEN_PX or metres > GREEN_M or self.residual["observation_count"] < FEW_OBSERVATIONS:
+            return "amber"
+        return "green"
+
+    @property
+    def reason(self):
+        if self.left_out:
+            return "left out of the bundle adjustment: nothing links it to the others"
+        if self.residual is None:
+            return "not refined"
+        r = self.residual
+        return "%d observations; %.2f px (before %.2f), %.2f mm (before %.2f)" % (
+            r["observation_count"], r["reprojection_rmse_after_px"], r["reprojection_rmse_before_px"],
+            1000 * r["depth_rmse_after_m"], 1000 * r["depth_rmse_before_m"])
+
+
+class ObjectData:
+    """folder: an object's folder. Raises ReportError."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.object = _load(os.path.join(folder, "object.yaml"))
+        self.quality = _load(os.path.join(folder, "quality.yaml"))
+        try:
+            self.keyframes = _keyframes(self.quality)
+            self.id, self.name = str(self.object["id"]), str(self.object["name"])
+        except (KeyError, TypeError, AttributeError) as error:
+            raise ReportError("%s: quality.yaml or object.yaml lacks %s; build the object anew" % (folder, error)) \
+                from error
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def count(self, light):
+        return sum(keyframe.light == light for keyframe in self.keyframes)
+
+
+def _load(path):
+    try:
+        with open(path, encoding="utf-8") as text:
+            data = yaml.load(text, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        raise ReportError("%s cannot be read: %s; build the object anew" % (path, error)) from error
+    if not isinstance(data, dict):
+        raise ReportError("%s is no description of an object; build the object anew" % path)
+    return data
+
+
+def _keyframes(quality):
+    """Those that the bundle adjustment had, and the views of the model; by session and id."""
+    found = {}
+    for session in quality["sessions"]:
+        refinement = session["refinement"] or {"keyframes": [], "left_out": []}
+        for residual in refinement["keyframes"]:
+            key = (session["id"], residual["keyframe_id"])
+            found[key] = Keyframe(*key, residual, residual["keyframe_id"] in refinement["left_out"])
+    for view in quality["views"]:
+        key = (view["session_id"], view["keyframe_id"])
+        found.setdefault(key, Keyframe(*key)).position_m = view["camera_position_m"]
+    return [found[key] for key in sorted(found)]

@@ -1,0 +1,83 @@
+#include "coverage.h"
+
+#include <cmath>
+
+namespace object_modelling::pipeline
+{
+namespace
+{
+constexpr double DEPTH_TOLERANCE_M = 0.005, MIN_COSINE = 0.17;
+
+bool sees(const rgbd::Keyframe& view, const Eigen::Vector3d& p_camera, const Eigen::Vector3d& n_camera)
+{
+  if (!(p_camera.z() > 0) || -n_camera.dot(p_camera.normalized()) < MIN_COSINE)
+    return false;
+  const Eigen::Vector2d pixel = view.frame.camera.project(p_camera);
+  if (!view.frame.camera.contains(pixel, 0.5))
+    return false;
+  const auto u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
+  return std::abs(view.frame.depthAt_m(u, v) - p_camera.z()) < DEPTH_TOLERANCE_M;  // false for NaN
+}
+
+void countDirections(const std::vector<rgbd::Keyframe>& views, Coverage* coverage)
+{
+  double area = 0, upper_area = 0;
+  for (int row = 0; row < ELEVATION_BINS; ++row)
+  {
+    const double elevation_rad = ((row + 0.5) / ELEVATION_BINS - 0.5) * M_PI;
+    for (int column = 0; column < AZIMUTH_BINS; ++column)
+    {
+      const double azimuth_rad = (column + 0.5) / AZIMUTH_BINS * 2 * M_PI;
+      const Eigen::Vector3d direction(std::cos(elevation_rad) * std::cos(azimuth_rad),
+                                      std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad));
+      int& count = coverage->view_counts[row][column];
+      for (const rgbd::Keyframe& view : views)
+        count += view.T_session_camera.translation().normalized().dot(direction) >= std::cos(VIEW_CONE_RAD);
+      const double share = std::cos(elevation_rad);  // of the bin's area
+      area += share;
+      coverage->direction_ratio += count > 0 ? share : 0;
+      if (elevation_rad < 0)
+        continue;
+      upper_area += share;
+      coverage->upper_direction_ratio += count > 0 ? share : 0;
+    }
+  }
+  coverage->direction_ratio /= area;
+  coverage->upper_direction_ratio /= upper_area;
+}
+}  // namespace
+
+Coverage coverageOf(const geometry::TriangleMesh& mesh, const std::vector<rgbd::Keyframe>& views)
+{
+  Coverage coverage;
+  countDirections(views, &coverage);
+  geometry::TriangleMesh with_normals;
+  const geometry::TriangleMesh* shape = &mesh;
+  if (mesh.normals.empty())
+  {
+    with_normals = mesh;
+    geometry::computeNormals(&with_normals);
+    shape = &with_normals;
+  }
+  std::vector<int> seen_by(shape->vertices.size(), 0);
+  for (const rgbd::Keyframe& view : views)
+  {
+    const Eigen::Isometry3d T_camera_model = view.T_session_camera.inverse();
+    for (std::size_t i = 0; i < seen_by.size(); ++i)
+      seen_by[i] += sees(view, T_camera_model * shape->vertices[i].cast<double>(),
+                         T_camera_model.linear() * shape->normals[i].cast<double>());
+  }
+  for (const int count : seen_by)
+  {
+    coverage.seen_ratio += count > 0;
+    coverage.well_seen_ratio += count >= WELL_SEEN_VIEWS;
+  }
+  if (!seen_by.empty())
+  {
+    coverage.seen_ratio /= static_cast<double>(seen_by.size());
+    coverage.well_seen_ratio /= static_cast<double>(seen_by.size());
+  }
+  return coverage;
+}
+
+}  // namespace object_modelling::pipeline

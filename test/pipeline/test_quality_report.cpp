@@ -1,0 +1,133 @@
+#include <yaml-cpp/yaml.h>
+
+#include <filesystem>
+
+#include "build_fixture.h"
+#include "object_modelling/base/atomic_file.h"
+#include "object_modelling/pipeline/report_maker.h"
+#include "refinement_report.h"
+
+namespace object_modelling::pipeline
+{
+namespace
+{
+refinement::BundleAdjustmentResult adjusted()
+{
+  refinement::BundleAdjustmentResult result;
+  result.iterations = 7;
+  result.initial_cost = 12.5;
+  result.final_cost = 3.25;
+  result.color_offset_px = { 0.25, -0.5 };
+  result.links.resize(4);
+  result.rejected_links.resize(1);
+  result.left_out = { 3 };
+  for (int id = 0; id < 12; ++id)
+    result.residuals.push_back({ id, 100 + id, 0.5, 0.2 + 0.05 * id, 0.004, 0.0015 });
+  return result;
+}
+}  // namespace
+
+TEST(RefinementReportTest, ComesBack)
+{
+  const std::optional<RefinementReport> report = readRefinementReport(refinementReportYaml(adjusted()));
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->iterations, 7);
+  EXPECT_EQ(report->initial_cost, 12.5);
+  EXPECT_EQ(report->final_cost, 3.25);
+  EXPECT_EQ(report->color_offset_px, Eigen::Vector2d(0.25, -0.5));
+  EXPECT_EQ(report->link_count, 4);
+  EXPECT_EQ(report->rejected_link_count, 1);
+  EXPECT_EQ(report->left_out, std::vector<int>{ 3 });
+  ASSERT_EQ(report->residuals.size(), 12u);
+  EXPECT_EQ(report->residuals[11].keyframe_id, 11);
+  EXPECT_EQ(report->residuals[11].observation_count, 111);
+  EXPECT_DOUBLE_EQ(report->residuals[11].reprojection_rmse_after_px, 0.75);
+  EXPECT_DOUBLE_EQ(report->residuals[11].depth_rmse_before_m, 0.004);
+}
+
+TEST(RefinementReportTest, EmptyIsNeverRefinedAndDamageIsNamed)
+{
+  EXPECT_FALSE(readRefinementReport(""));
+  for (const std::string text : { "iterations: many", "[1, 2", "keyframes: []" })
+    EXPECT_EQ(statusOf([&] { readRefinementReport(text); }).code, base::StatusCode::BAD_INPUT) << text;
+}
+
+/// A store whose sessions have been refined.
+class RefinedStore : public BuildObject
+{
+protected:
+  void refined(const std::string& text)
+  {
+    keyframes::Session session = store_->session("box");
+    session.refinement_report = text;
+    store_->updateSession(session);
+  }
+};
+
+TEST_F(RefinedStore, QualityNamesFiguresStagesAndVersions)
+{
+  const BuildReport report = build({ "box" });
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  const YAML::Node quality = YAML::LoadFile(report.object_folder + "/quality.yaml");
+  EXPECT_EQ(quality["figures"]["view_count"].as<int>(), 12);
+  EXPECT_EQ(quality["figures"]["triangle_count"].as<std::size_t>(), report.triangle_count);
+  EXPECT_NEAR(quality["figures"]["size_m"][2].as<double>(), BOX_SIZE_M.z(), 0.01);
+  EXPECT_GT(quality["sigma"]["median_m"].as<double>(), 0);
+  EXPECT_GE(quality["sigma"]["p95_m"].as<double>(), quality["sigma"]["median_m"].as<double>());
+  std::size_t counted = 0;
+  for (const YAML::Node& count : quality["sigma"]["histogram_counts"])
+    counted += count.as<std::size_t>();
+  EXPECT_EQ(counted, report.point_count);
+  EXPECT_GT(quality["coverage"]["mesh_seen_ratio"].as<double>(), 0.9);
+  EXPECT_GT(quality["coverage"]["mesh_seen_by_3_ratio"].as<double>(), 0.5);
+  EXPECT_EQ(quality["coverage"]["view_counts"].size(), 12u);
+  EXPECT_TRUE(quality["sessions"][0]["refinement"].IsNull());
+  ASSERT_EQ(quality["views"].size(), 12u);
+  EXPECT_EQ(quality["views"][5]["keyframe_id"].as<int>(), 5);
+  EXPECT_GT(quality["stage_s"]["fuse"].as<double>(), 0);
+  EXPECT_EQ(quality["parameters"]["fusion/resolution_m"].as<double>(), 0.004);
+  for (const char* name : { "object_modelling", "opencv", "pcl", "ceres", "eigen" })
+    EXPECT_FALSE(quality["versions"][name].as<std::string>().empty()) << name;
+  EXPECT_TRUE(std::filesystem::exists(report.object_folder + "/turntable.png"));
+}
+
+TEST_F(RefinedStore, ADamagedHistoryDoesNotCostTheModel)
+{
+  refined("[broken");
+  const BuildReport report = build({ "box" });
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  EXPECT_TRUE(YAML::LoadFile(report.object_folder + "/quality.yaml")["sessions"][0]["refinement"].IsNull());
+}
+
+TEST_F(RefinedStore, TheReportIsWrittenWithTheModelAndCanBeMadeAgain)
+{
+  BuildOptions options = coarse();
+  options.make_report = true;
+  const BuildReport report = build({ "box" }, options);
+  ASSERT_TRUE(report.status.ok());
+  EXPECT_EQ(report.status.message, "");
+  const std::string path = report.object_folder + "/report.html";
+  EXPECT_GT(base::readTextFile(path).size(), 100000u);
+  EXPECT_EQ(report.stage_s.count("report"), 1u);
+  EXPECT_EQ(database_.check(), std::vector<std::string>());
+
+  base::writeTextFile(path, "changed");
+  EXPECT_EQ(database_.check().size(), 1u);
+  const std::string hash = contentHash();
+  database_.remakeReport("carton", control_, [this](const std::string& folder) { makeReport(folder, control_); });
+  EXPECT_GT(base::readTextFile(path).size(), 100000u);
+  EXPECT_EQ(database_.check(), std::vector<std::string>());
+  EXPECT_EQ(contentHash(), hash);
+}
+
+TEST_F(RefinedStore, AReportThatFailsNamesTheReason)
+{
+  const base::Status status = statusOf([this] { makeReport(folder_.path("no object"), control_); });
+  EXPECT_EQ(status.code, base::StatusCode::INTERNAL);
+  EXPECT_NE(status.message.find("object.yaml"), std::string::npos) << status.message;
+  base::JobControl cancelled;
+  cancelled.cancel();
+  EXPECT_EQ(statusOf([&] { makeReport(folder_.path(), cancelled); }).code, base::StatusCode::CANCELLED);
+}
+
+}  // namespace object_modelling::pipeline
