@@ -2,6 +2,7 @@
 import argparse
 import base64
 import os
+import struct
 import sys
 import tempfile
 
@@ -39,8 +40,17 @@ def library_scripts(folders=SCRIPT_FOLDERS):
     return "\n;\n".join(texts)
 
 
-def _data_uri(path, kind):
-    return "data:%s;base64,%s" % (kind, base64.b64encode(_read(path)).decode())
+def _data_uri(path):
+    return "data:image/png;base64," + base64.b64encode(_read(path)).decode()
+
+
+def _tiles(path):
+    """How many squares stand side by side in a PNG."""
+    header = _read(path)[:24]
+    width, height = struct.unpack(">II", header[16:24]) if len(header) == 24 else (0, 0)
+    if height == 0 or width < 2 * height:
+        raise ReportError("%s is no strip of pictures; build the object anew" % path)
+    return width // height
 
 
 def _model_glb(data):
@@ -68,7 +78,8 @@ def render(data):
     try:
         return environment.get_template("template.html").render(
             data=data, quality=quality, limits=object_data, colours=plots.COLOURS, cameras=cameras,
-            turntable=_data_uri(turntable, "image/png") if os.path.isfile(turntable) else None,
+            turntable=_data_uri(turntable) if os.path.isfile(turntable) else None,
+            turntable_steps=_tiles(turntable) if os.path.isfile(turntable) else 0,
             glb=base64.b64encode(model).decode(), model_kind=model_kind,
             library=Markup(library_scripts()), viewer=Markup(_read(os.path.join(HERE, "viewer.js"), "r")),
             plots={"path": _safe_svg(plots.camera_path(data.keyframes, quality["figures"]["size_m"])),
