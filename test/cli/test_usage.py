@@ -26,9 +26,9 @@ class UsageTest(unittest.TestCase):
 
     def test_help_names_every_command(self):
         text = run("--help").stdout
-        for word in ("track", "model", "calibrate_noise", "info", "compare", "Exit codes"):
+        for word in ("track", "model", "calibrate_noise", "info", "compare", "report", "Exit codes"):
             self.assertIn(word, text)
-        for command in ("track", "model", "calibrate_noise", "info", "compare"):
+        for command in ("track", "model", "calibrate_noise", "info", "compare", "report"):
             finished = run(command, "--help")
             self.assertEqual(finished.returncode, 0)
             self.assertGreater(len(finished.stdout.splitlines()), 5)
@@ -70,6 +70,14 @@ class UsageTest(unittest.TestCase):
         finished = run("model", "../evil", CEREAL_BOX, "--database", self.path("database"), "--reference", "object")
         self.assert_refused(finished, "../evil")
         self.assertEqual(sorted(os.listdir(self.folder.name)), ["database"])
+
+    def test_report_of_nothing(self):
+        self.assert_refused(run("report", "box", "--database", self.path("database")), "database")
+        os.mkdir(self.path("database"))
+        with open(self.path("database", "manifest.yaml"), "w") as manifest:
+            manifest.write("schema_version: 1\nunit: metre\nhandedness: right\nobjects: []\n")
+        self.assert_refused(run("report", "box", "--database", self.path("database")), "'box' is not in")
+        self.assert_refused(run("report", "../box", "--database", self.path("database")), "../box")
 
     def test_info_on_nothing_creates_nothing(self):
         self.assert_refused(run("info", self.path("store.sqlite")), "store.sqlite")

@@ -5,6 +5,7 @@
 #include "build_fixture.h"
 #include "object_modelling/base/atomic_file.h"
 #include "object_modelling/pipeline/report_maker.h"
+#include "quality_report.h"
 #include "refinement_report.h"
 
 namespace object_modelling::pipeline
@@ -52,19 +53,29 @@ TEST(RefinementReportTest, EmptyIsNeverRefinedAndDamageIsNamed)
     EXPECT_EQ(statusOf([&] { readRefinementReport(text); }).code, base::StatusCode::BAD_INPUT) << text;
 }
 
-/// A store whose sessions have been refined.
-class RefinedStore : public BuildObject
+TEST(QualityReportTest, HoldsTheResidualsOfEverySession)
 {
-protected:
-  void refined(const std::string& text)
-  {
-    keyframes::Session session = store_->session("box");
-    session.refinement_report = text;
-    store_->updateSession(session);
-  }
-};
+  std::vector<keyframes::Session> sessions{ named("up"), named("down"), named("damaged") };
+  sessions[0].refinement_report = refinementReportYaml(adjusted());
+  sessions[0].reference_is_object = true;
+  sessions[2].refinement_report = "[broken";  // does not cost the model
+  const YAML::Node quality = YAML::Load(qualityYaml({}, sessions, {}, {}, { { "fuse", 1.5 } }));
+  ASSERT_EQ(quality["sessions"].size(), 3u);
+  EXPECT_EQ(quality["sessions"][0]["id"].as<std::string>(), "up");
+  EXPECT_EQ(quality["sessions"][0]["tracked_against"].as<std::string>(), "object");
+  const YAML::Node refinement = quality["sessions"][0]["refinement"];
+  EXPECT_EQ(refinement["left_out"][0].as<int>(), 3);
+  EXPECT_EQ(refinement["color_offset_px"][1].as<double>(), -0.5);
+  ASSERT_EQ(refinement["keyframes"].size(), 12u);
+  EXPECT_EQ(refinement["keyframes"][11]["keyframe_id"].as<int>(), 11);
+  EXPECT_NEAR(refinement["keyframes"][11]["reprojection_rmse_after_px"].as<double>(), 0.75, 1e-6);
+  EXPECT_TRUE(quality["sessions"][1]["refinement"].IsNull());
+  EXPECT_TRUE(quality["sessions"][2]["refinement"].IsNull());
+  EXPECT_EQ(quality["stage_s"]["fuse"].as<double>(), 1.5);
+  EXPECT_EQ(quality["figures"]["point_count"].as<int>(), 0);  // an empty model has figures too
+}
 
-TEST_F(RefinedStore, QualityNamesFiguresStagesAndVersions)
+TEST_F(BuildObject, QualityNamesFiguresStagesAndVersions)
 {
   const BuildReport report = build({ "box" });
   ASSERT_TRUE(report.status.ok()) << report.status.message;
@@ -91,15 +102,7 @@ TEST_F(RefinedStore, QualityNamesFiguresStagesAndVersions)
   EXPECT_TRUE(std::filesystem::exists(report.object_folder + "/turntable.png"));
 }
 
-TEST_F(RefinedStore, ADamagedHistoryDoesNotCostTheModel)
-{
-  refined("[broken");
-  const BuildReport report = build({ "box" });
-  ASSERT_TRUE(report.status.ok()) << report.status.message;
-  EXPECT_TRUE(YAML::LoadFile(report.object_folder + "/quality.yaml")["sessions"][0]["refinement"].IsNull());
-}
-
-TEST_F(RefinedStore, TheReportIsWrittenWithTheModelAndCanBeMadeAgain)
+TEST_F(BuildObject, TheReportIsWrittenWithTheModelAndCanBeMadeAgain)
 {
   BuildOptions options = coarse();
   options.make_report = true;
@@ -120,7 +123,7 @@ TEST_F(RefinedStore, TheReportIsWrittenWithTheModelAndCanBeMadeAgain)
   EXPECT_EQ(contentHash(), hash);
 }
 
-TEST_F(RefinedStore, AReportThatFailsNamesTheReason)
+TEST_F(BuildObject, AReportThatFailsNamesTheReason)
 {
   const base::Status status = statusOf([this] { makeReport(folder_.path("no object"), control_); });
   EXPECT_EQ(status.code, base::StatusCode::INTERNAL);
