@@ -26,6 +26,13 @@
     return count;
   }
 
+  function sharpen(object, anisotropy) {
+    object.traverse(function (part) {
+      if (part.isMesh && part.material.map)
+        part.material.map.anisotropy = anisotropy;
+    });
+  }
+
   function cameraPath(cameras) {
     var group = new THREE.Group();
     cameras.forEach(function (camera) {
@@ -42,6 +49,7 @@
     var scene = new THREE.Scene();
     scene.background = new THREE.Color(0xffffff);
     scene.add(gltf.scene);
+    sharpen(gltf.scene, renderer.capabilities.getMaxAnisotropy());
     var cameras = cameraPath(JSON.parse(box.getAttribute("data-cameras")));
     scene.add(cameras);
 
@@ -50,8 +58,8 @@
                                              sphere.radius * 200);
     camera.up.set(0, 0, 1);
     scene.add(camera);
-    scene.add(new THREE.AmbientLight(0xffffff, 0.55));
-    var lamp = new THREE.DirectionalLight(0xffffff, 0.55);
+    scene.add(new THREE.AmbientLight(0xffffff, 0.7));
+    var lamp = new THREE.DirectionalLight(0xffffff, 0.4);
     camera.add(lamp);
     camera.add(lamp.target);
     lamp.target.position.set(0, 0, -1);
@@ -86,7 +94,11 @@
 
   var renderer;
   try {
-    renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    // WebGL 2 where there is one: it takes textures of any size as they are.
+    var canvas = document.createElement("canvas");
+    var settings = { antialias: true, preserveDrawingBuffer: true };
+    renderer = new THREE.WebGLRenderer({ canvas: canvas, context: canvas.getContext("webgl2", settings) ||
+                                                                  canvas.getContext("webgl", settings) });
   } catch (error) {
     fail("this browser has no WebGL");
     return;
