@@ -17,7 +17,7 @@ struct BuildOptions
 {
   fusion::CloudFusionOptions fusion;
   surface::SurfaceOptions surface;
-  bool replace = false;  ///< allow another object frame for an object that exists with none of these sessions
+  bool replace = false;     ///< allow another object frame for an object that exists with none of these sessions
   bool make_report = true;  ///< report.html, which takes a few seconds
   std::vector<std::string> violations() const;
 };
