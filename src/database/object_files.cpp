@@ -11,6 +11,7 @@
 #include "object_modelling/database/cloud_file.h"
 #include "object_modelling/database/object_database.h"
 #include "object_modelling/surface/mesh_files.h"
+#include "object_modelling/surface/textured_mesh_files.h"
 #include "pcd_files.h"
 #include "yaml_text.h"
 
@@ -125,6 +126,12 @@ void writeObjectFiles(const std::string& folder, const ObjectModel& model, base:
   control.report(stage, 0, total);
   surface::writeMesh(folder + "/mesh/mesh.ply", model.mesh);
   surface::writeMesh(folder + "/mesh/mesh.obj", model.mesh);
+  if (!model.textured.empty())
+  {
+    surface::writeTexturedMesh(folder + "/mesh/textured.obj", model.textured);
+    surface::writeTexturedMesh(folder + "/mesh/textured.glb", model.textured);
+    writeImage(folder + "/mesh/textured_seen.png", model.textured.seen, {});
+  }
   if (!model.preview_bgr.empty())
     writeImage(folder + "/preview.png", model.preview_bgr, {});
   if (!model.turntable_bgr.empty())

@@ -57,6 +57,7 @@ std::vector<std::string> CloudFusionOptions::violations() const
   check.inRange("consistency_sigmas", consistency_sigmas, 1.0, 10.0);
   check.atLeast("min_views", min_views, 1);
   check.include(weight.violations());
+  check.require("color_offset_px", color_offset_px.allFinite(), "must be finite");
   return check.violations();
 }
 
@@ -107,7 +108,7 @@ CloudFusionResult fuse(const std::vector<rgbd::Keyframe>& keyframes, const Cloud
     return nothing("every fused point is contradicted by other views or masks", "check poses and masks");
 
   control.report("fuse", 4, STAGES);
-  result.cloud.colors = colourSurfels(views, surfels, options.consistency_sigmas);
+  result.cloud.colors = colourSurfels(views, surfels, options.consistency_sigmas, options.color_offset_px);
   for (const Surfel& surfel : surfels)
   {
     result.cloud.points.push_back(surfel.point);

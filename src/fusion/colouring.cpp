@@ -36,7 +36,7 @@ Eigen::Vector3f bilinearRgb(const cv::Mat& bgr, float u, float v)
 }
 
 std::vector<Sample> bestSamples(const std::vector<View>& views, const std::vector<cv::Mat>& rim_distances_px,
-                                const Surfel& surfel, double consistency_sigmas)
+                                const Surfel& surfel, double consistency_sigmas, const Eigen::Vector2f& color_offset_px)
 {
   std::vector<Sample> samples;
   for (int i = 0; i < static_cast<int>(views.size()); ++i)
@@ -60,7 +60,7 @@ std::vector<Sample> bestSamples(const std::vector<View>& views, const std::vecto
     sample.view = i;
     sample.weight =
         std::pow(std::max(cosine, MIN_COSINE), 2.f) / (at.z_m * at.z_m) * std::min(1.f, rim_px / FULL_RIM_DISTANCE);
-    sample.rgb = bilinearRgb(view.frame->color_bgr, at.u_px, at.v_px);
+    sample.rgb = bilinearRgb(view.frame->color_bgr, at.u_px + color_offset_px.x(), at.v_px + color_offset_px.y());
     samples.push_back(sample);
   }
   std::stable_sort(samples.begin(), samples.end(),
@@ -122,7 +122,8 @@ std::vector<Eigen::Vector3f> estimateGains(const std::vector<std::vector<Sample>
 
 std::vector<Eigen::Matrix<std::uint8_t, 3, 1>> colourSurfels(const std::vector<View>& views,
                                                              const std::vector<Surfel>& surfels,
-                                                             double consistency_sigmas)
+                                                             double consistency_sigmas,
+                                                             const Eigen::Vector2d& color_offset_px)
 {
   std::vector<cv::Mat> rim_distances_px(views.size());
 #pragma omp parallel for schedule(dynamic)
@@ -134,7 +135,7 @@ std::vector<Eigen::Matrix<std::uint8_t, 3, 1>> colourSurfels(const std::vector<V
   std::vector<std::vector<Sample>> samples(surfels.size());
 #pragma omp parallel for schedule(dynamic, 256)
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(surfels.size()); ++i)
-    samples[i] = bestSamples(views, rim_distances_px, surfels[i], consistency_sigmas);
+    samples[i] = bestSamples(views, rim_distances_px, surfels[i], consistency_sigmas, color_offset_px.cast<float>());
 
   const std::vector<Eigen::Vector3f> gains = estimateGains(samples, views.size());
   std::vector<Eigen::Matrix<std::uint8_t, 3, 1>> colors(surfels.size());

@@ -6,7 +6,7 @@
 #include "model_frame.h"
 #include "object_modelling/base/options.h"
 #include "object_modelling/pipeline/report_maker.h"
-#include "object_modelling/surface/mesh_renderer.h"
+#include "object_modelling/surface/textured_renderer.h"
 #include "quality_report.h"
 
 namespace object_modelling::pipeline
@@ -168,6 +168,7 @@ std::vector<std::string> BuildOptions::violations() const
   base::OptionsCheck check("build_object");
   check.include(fusion.violations());
   check.include(surface.violations());
+  check.include(texture.violations());
   return check.violations();
 }
 
@@ -231,6 +232,14 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
     return report;
   timer.finish("surface");
 
+  for (rgbd::Keyframe& view : views.keyframes)
+    view.T_session_camera = *T_model_reference * view.T_session_camera;
+  surface::TextureResult texture = surface::textureMesh(surface.mesh, views.keyframes, options.texture, control);
+  report.status = texture.status;
+  if (!report.status.ok())
+    return report;
+  timer.finish("texture");
+
   database::ObjectModel model;
   model.id = object_id;
   model.name = name.empty() ? object_id : name;
@@ -239,6 +248,11 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
   model.quality = { { "view_count", static_cast<double>(views.keyframes.size()) },
                     { "point_count", static_cast<double>(fused.cloud.size()) },
                     { "mean_sigma_m", meanSigma_m(fused.cloud) },
+                    { "texture_seen_ratio", texture.seen_ratio },
+                    { "texture_chart_count", static_cast<double>(texture.chart_count) },
+                    { "texture_texel_size_m", texture.texel_size_m },
+                    { "texture_seam_step_before", texture.seam_step_before },
+                    { "texture_seam_step_after", texture.seam_step_after },
                     { "inconsistent_observation_ratio",
                       static_cast<double>(fused.observations_inconsistent) /
                           static_cast<double>(
@@ -248,12 +262,11 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
                        { "surface_resolution_m", std::to_string(options.surface.resolution_m) } };
   model.cloud = std::move(fused.cloud);
   model.mesh = std::move(surface.mesh);
-  model.preview_bgr = surface::renderFourSides(model.mesh);
+  model.textured = std::move(texture.textured);
+  model.preview_bgr = surface::renderFourSides(model.textured);
   model.views = std::move(views.keyframes);
-  for (rgbd::Keyframe& view : model.views)
-    view.T_session_camera = *T_model_reference * view.T_session_camera;
 
-  model.turntable_bgr = surface::renderTurntable(model.mesh, TURNTABLE_STEPS);
+  model.turntable_bgr = surface::renderTurntable(model.textured, TURNTABLE_STEPS);
   model.quality_yaml = qualityYaml(model, views.sessions, views.origins, options, report.stage_s);
   timer.finish("describe");
 

@@ -9,6 +9,7 @@
 #include "object_modelling/geometry/oriented_box.h"
 #include "object_modelling/geometry/triangle_mesh.h"
 #include "object_modelling/rgbd/keyframe.h"
+#include "object_modelling/surface/textured_mesh.h"
 
 namespace object_modelling::database
 {
@@ -33,6 +34,7 @@ struct ObjectModel
   std::map<std::string, std::string> provenance;   ///< recording, software version, options
   fusion::FusedCloud cloud;                        ///< in the object frame
   geometry::TriangleMesh mesh;
+  surface::TexturedMesh textured;     ///< the same mesh with its texture; may be empty
   cv::Mat preview_bgr;                ///< CV_8UC3, written as preview.png; may be empty
   cv::Mat turntable_bgr;              ///< CV_8UC3, written as turntable.png; may be empty
   std::string quality_yaml;           ///< written as quality.yaml; may be empty

@@ -10,6 +10,7 @@
 #include "object_modelling/fusion/cloud_fusion.h"
 #include "object_modelling/keyframes/session_store.h"
 #include "object_modelling/surface/surface_reconstruction.h"
+#include "object_modelling/surface/texturing.h"
 
 namespace object_modelling::pipeline
 {
@@ -17,6 +18,7 @@ struct BuildOptions
 {
   fusion::CloudFusionOptions fusion;
   surface::SurfaceOptions surface;
+  surface::TextureOptions texture;
   bool replace = false;     ///< allow another object frame for an object that exists with none of these sessions
   bool make_report = true;  ///< report.html, which takes a few seconds
   std::vector<std::string> violations() const;
@@ -33,8 +35,8 @@ struct BuildReport
   std::map<std::string, double> stage_s;  ///< seconds by stage
 };
 
-/// Fused cloud, mesh, views and report of one object from its placed sessions, written into the database in one atomic
-/// step; sets object_id and T_model_session of the sessions in the store. Refuses with the reason: no session, no
+/// Fused cloud, mesh, texture, views and report of one object from its placed sessions, written into the database in one
+/// atomic step; sets object_id and T_model_session of the sessions in the store. Refuses with the reason: no session, no
 /// keyframes, no masks, an existing object in another frame (unless `replace`).
 BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase& database,
                         const std::string& object_id, const std::string& name,

@@ -46,6 +46,11 @@ void read(Reader& reader, ModelBuilderOptions* options)
   reader.read("surface/watertight", options->build.surface.watertight);
   reader.read("surface/max_triangles", options->build.surface.max_triangles);
   reader.read("surface/max_decimation_error_m", options->build.surface.max_decimation_error_m);
+  reader.read("texture/texel_size_m", options->build.texture.texel_size_m);
+  reader.read("texture/max_atlas_px", options->build.texture.max_atlas_px);
+  reader.read("texture/padding_px", options->build.texture.padding_px);
+  reader.read("texture/view_preference", options->build.texture.view_preference);
+  reader.read("texture/outlier_tolerance", options->build.texture.outlier_tolerance);
   read(reader, &options->store);
 }
 

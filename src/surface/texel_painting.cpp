@@ -1,0 +1,165 @@
+#include "texel_painting.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+#include "triangle_raster.h"
+
+namespace object_modelling::surface
+{
+namespace
+{
+/// Views that see a corner of a triangle, with their weights at the three.
+struct CornerWeights
+{
+  int view = -1;
+  Eigen::Vector3f at_corners = Eigen::Vector3f::Zero();
+};
+
+std::vector<CornerWeights> cornerWeights(const VertexWeights& weights, const std::array<std::uint32_t, 3>& triangle)
+{
+  std::vector<CornerWeights> result;
+  for (int corner = 0; corner < 3; ++corner)
+    for (const VertexView& seen : weights[triangle[corner]])
+    {
+      auto at = std::find_if(result.begin(), result.end(),
+                             [&](const CornerWeights& entry) { return entry.view == seen.view; });
+      if (at == result.end())
+        at = result.insert(result.end(), { seen.view, Eigen::Vector3f::Zero() });
+      at->at_corners[corner] = seen.weight;
+    }
+  return result;
+}
+
+/// Shares beyond the triangle give the colour beside it, in its plane, with the weights of its rim.
+Eigen::Vector3f blend(const Paint& paint, const std::vector<CornerWeights>& candidates, std::size_t triangle,
+                      const Eigen::Vector3f& point_shares, bool* seen)
+{
+  const Eigen::Vector3f shares = point_shares.cwiseMax(0) / point_shares.cwiseMax(0).sum();
+  Eigen::Vector3f point = Eigen::Vector3f::Zero(), filled = Eigen::Vector3f::Zero();
+  for (int corner = 0; corner < 3; ++corner)
+  {
+    const std::uint32_t vertex = paint.mesh.triangles[triangle][corner];
+    point += point_shares[corner] * paint.mesh.vertices[vertex];
+    filled += shares[corner] * paint.vertex_colors[vertex];
+  }
+  float best = 0;
+  for (const CornerWeights& candidate : candidates)
+    best = std::max(best, candidate.at_corners.dot(shares));
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  float total = 0;
+  for (const CornerWeights& candidate : candidates)
+  {
+    const float weight = candidate.at_corners.dot(shares);
+    if (!(weight > 0))
+      continue;
+    const float preferred = std::pow(weight / best, static_cast<float>(paint.view_preference));
+    const TextureView& view = paint.views[candidate.view];
+    sum +=
+        preferred * paint.gains[candidate.view].cwiseProduct(colorAt(view.frame->color_bgr, colorPixel(view, point)));
+    total += preferred;
+  }
+  *seen = total > 0;
+  if (!*seen)
+    return filled;
+  // Share of the point's surroundings that is seen at all: at the border of the unseen the two run into each other.
+  float seen_share = 0;
+  for (int corner = 0; corner < 3; ++corner)
+    seen_share += paint.weights[paint.mesh.triangles[triangle][corner]].empty() ? 0 : shares[corner];
+  return seen_share * (sum / total) + (1 - seen_share) * filled;
+}
+
+/// The triangle that each texel belongs to, -1 for none. Texels on an edge belong to the first of its triangles, those
+/// that touch a chart from outside to that of a neighbour: filtering reads them at the chart's border.
+cv::Mat findOwners(const Atlas& atlas, cv::Mat* inside)
+{
+  cv::Mat owner(atlas.size_px, CV_32SC1, cv::Scalar(-1));
+  for (std::size_t t = 0; t < atlas.texels.size(); ++t)
+    forEachPixelInside(atlas.texels[t], -ON_EDGE_SHARE, atlas.size_px,
+                       [&](int u, int v, const Eigen::Vector3f&)
+                       {
+                         if (owner.at<int>(v, u) < 0)
+                           owner.at<int>(v, u) = static_cast<int>(t);
+                       });
+  *inside = owner >= 0;
+  for (int v = 0; v < owner.rows; ++v)
+    for (int u = 0; u < owner.cols; ++u)
+    {
+      int& own = owner.at<int>(v, u);
+      for (int k = 0; k < 8 && own < 0; ++k)
+      {
+        constexpr std::array<std::array<int, 2>, 8> AROUND{
+          { { 1, 0 }, { -1, 0 }, { 0, 1 }, { 0, -1 }, { 1, 1 }, { -1, 1 }, { 1, -1 }, { -1, -1 } }
+        };
+        const cv::Point beside(u + AROUND[k][0], v + AROUND[k][1]);
+        if (cv::Rect({ 0, 0 }, owner.size()).contains(beside) && inside->at<std::uint8_t>(beside))
+          own = owner.at<int>(beside);
+      }
+    }
+  return owner;
+}
+
+void dilate(const cv::Mat& inside, int padding_px, cv::Mat* texture_bgr)
+{
+  cv::Mat done = inside.clone();
+  for (int ring = 0; ring < padding_px; ++ring)
+  {
+    const cv::Mat before = done.clone(), colors = texture_bgr->clone();
+    for (int v = 0; v < done.rows; ++v)
+      for (int u = 0; u < done.cols; ++u)
+      {
+        if (before.at<std::uint8_t>(v, u))
+          continue;
+        cv::Vec3i sum(0, 0, 0);
+        int count = 0;
+        for (int y = std::max(0, v - 1); y <= std::min(done.rows - 1, v + 1); ++y)
+          for (int x = std::max(0, u - 1); x <= std::min(done.cols - 1, u + 1); ++x)
+            if (before.at<std::uint8_t>(y, x))
+            {
+              sum += cv::Vec3i(colors.at<cv::Vec3b>(y, x));
+              ++count;
+            }
+        if (count == 0)
+          continue;
+        for (int c = 0; c < 3; ++c)
+          texture_bgr->at<cv::Vec3b>(v, u)[c] = static_cast<std::uint8_t>((sum[c] + count / 2) / count);
+        done.at<std::uint8_t>(v, u) = 255;
+      }
+  }
+}
+}  // namespace
+
+void paintAtlas(const Paint& paint, const Atlas& atlas, int padding_px, cv::Mat* texture_bgr, cv::Mat* seen)
+{
+  *texture_bgr = cv::Mat(atlas.size_px, CV_8UC3, cv::Scalar(128, 128, 128));
+  *seen = cv::Mat::zeros(atlas.size_px, CV_8UC1);
+  cv::Mat inside;
+  const cv::Mat owner = findOwners(atlas, &inside);
+#pragma omp parallel for schedule(dynamic, 8)
+  for (int v = 0; v < owner.rows; ++v)
+  {
+    int last = -1;
+    std::vector<CornerWeights> candidates;
+    for (int u = 0; u < owner.cols; ++u)
+    {
+      const int triangle = owner.at<int>(v, u);
+      if (triangle < 0)
+        continue;
+      if (triangle != last)
+        candidates = cornerWeights(paint.weights, paint.mesh.triangles[triangle]);
+      last = triangle;
+      const Eigen::Vector2f texel(static_cast<float>(u), static_cast<float>(v));
+      bool is_seen = false;
+      const Eigen::Vector3f color =
+          blend(paint, candidates, triangle, sharesAt(atlas.texels[triangle], texel), &is_seen);
+      for (int c = 0; c < 3; ++c)
+        texture_bgr->at<cv::Vec3b>(v, u)[c] = static_cast<std::uint8_t>(std::clamp(color[c] + 0.5f, 0.f, 255.f));
+      seen->at<std::uint8_t>(v, u) = is_seen && inside.at<std::uint8_t>(v, u) ? 255 : 0;
+    }
+  }
+  dilate(owner >= 0, padding_px - 1, texture_bgr);
+}
+
+}  // namespace object_modelling::surface

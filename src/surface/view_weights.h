@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "texture_view.h"
+
+namespace object_modelling::surface
+{
+/// What one view shows of one vertex.
+struct VertexView
+{
+  int view = -1;
+  float weight = 0;  ///< > 0
+};
+
+/// Per vertex the views that see it, by ascending index.
+using VertexWeights = std::vector<std::vector<VertexView>>;
+
+/// Quality of sight times sharpness: a view whose image varies less than those of other views at the same places is
+/// blurred and counts less.
+VertexWeights weighViews(const geometry::TriangleMesh& mesh, const std::vector<TextureView>& views);
+
+/// Takes weight from views that disagree with what the others agree on (after the gains, gray levels).
+void outvoteOutliers(const geometry::TriangleMesh& mesh, const std::vector<TextureView>& views,
+                     const std::vector<Eigen::Vector3f>& gains, double tolerance, VertexWeights* weights);
+
+/// Lets the weight of every view fade towards places that it does not see, over some rings of vertices.
+void fadeAtBorders(const geometry::TriangleMesh& mesh, std::size_t view_count, VertexWeights* weights);
+
+}  // namespace object_modelling::surface
