@@ -33,43 +33,51 @@ std::vector<CornerWeights> cornerWeights(const VertexWeights& weights, const std
   return result;
 }
 
-/// Shares beyond the triangle give the colour beside it, in its plane, with the weights of its rim.
-Eigen::Vector3f blend(const Paint& paint, const std::vector<CornerWeights>& candidates, std::size_t triangle,
-                      const Eigen::Vector3f& point_shares, bool* seen)
+/// Colour at a point of a triangle. Shares beyond the triangle give the colour beside it, in its plane, with the
+/// weights of its rim.
+class Blend
 {
-  const Eigen::Vector3f shares = point_shares.cwiseMax(0) / point_shares.cwiseMax(0).sum();
-  Eigen::Vector3f point = Eigen::Vector3f::Zero(), filled = Eigen::Vector3f::Zero();
-  for (int corner = 0; corner < 3; ++corner)
+public:
+  Blend(const Paint& paint, const std::vector<ViewImage>& images, const std::vector<Eigen::Vector3f>& vertex_colors)
+      : paint_(paint), images_(images), vertex_colors_(vertex_colors)
   {
-    const std::uint32_t vertex = paint.mesh.triangles[triangle][corner];
-    point += point_shares[corner] * paint.mesh.vertices[vertex];
-    filled += shares[corner] * paint.vertex_colors[vertex];
   }
-  float best = 0;
-  for (const CornerWeights& candidate : candidates)
-    best = std::max(best, candidate.at_corners.dot(shares));
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  float total = 0;
-  for (const CornerWeights& candidate : candidates)
+
+  Eigen::Vector3f at(std::size_t triangle, const std::vector<CornerWeights>& candidates,
+                     const Eigen::Vector3f& point_shares) const
   {
-    const float weight = candidate.at_corners.dot(shares);
-    if (!(weight > 0))
-      continue;
-    const float preferred = std::pow(weight / best, static_cast<float>(paint.view_preference));
-    const TextureView& view = paint.views[candidate.view];
-    sum +=
-        preferred * paint.gains[candidate.view].cwiseProduct(colorAt(view.frame->color_bgr, colorPixel(view, point)));
-    total += preferred;
+    const Eigen::Vector3f shares = point_shares.cwiseMax(0) / point_shares.cwiseMax(0).sum();
+    Eigen::Vector3f point = Eigen::Vector3f::Zero(), filled = Eigen::Vector3f::Zero();
+    float seen_share = 0;  // at the border of the unseen the two run into each other
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      const std::uint32_t vertex = paint_.mesh.triangles[triangle][corner];
+      point += point_shares[corner] * paint_.mesh.vertices[vertex];
+      filled += shares[corner] * vertex_colors_[vertex];
+      seen_share += paint_.weights[vertex].empty() ? 0 : shares[corner];
+    }
+    float best = 0;
+    for (const CornerWeights& candidate : candidates)
+      best = std::max(best, candidate.at_corners.dot(shares));
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    float total = 0;
+    for (const CornerWeights& candidate : candidates)
+    {
+      const float weight = candidate.at_corners.dot(shares);
+      if (!(weight > 0))
+        continue;
+      const float preferred = std::pow(weight / best, static_cast<float>(paint_.view_preference));
+      sum += preferred * images_[candidate.view].at(colorPixel(paint_.views[candidate.view], point));
+      total += preferred;
+    }
+    return total > 0 ? Eigen::Vector3f(seen_share * (sum / total) + (1 - seen_share) * filled) : filled;
   }
-  *seen = total > 0;
-  if (!*seen)
-    return filled;
-  // Share of the point's surroundings that is seen at all: at the border of the unseen the two run into each other.
-  float seen_share = 0;
-  for (int corner = 0; corner < 3; ++corner)
-    seen_share += paint.weights[paint.mesh.triangles[triangle][corner]].empty() ? 0 : shares[corner];
-  return seen_share * (sum / total) + (1 - seen_share) * filled;
-}
+
+private:
+  const Paint& paint_;
+  const std::vector<ViewImage>& images_;
+  const std::vector<Eigen::Vector3f>& vertex_colors_;
+};
 
 /// The triangle that each texel belongs to, -1 for none. Texels on an edge belong to the first of its triangles, those
 /// that touch a chart from outside to that of a neighbour: filtering reads them at the chart's border.
@@ -83,6 +91,13 @@ cv::Mat findOwners(const Atlas& atlas, cv::Mat* inside)
                          if (owner.at<int>(v, u) < 0)
                            owner.at<int>(v, u) = static_cast<int>(t);
                        });
+  for (std::size_t t = 0; t < atlas.texels.size(); ++t)  // slivers between the texels' centres
+    for (const Eigen::Vector2f& corner : atlas.texels[t])
+    {
+      int& own = owner.at<int>(cvRound(corner.y()), cvRound(corner.x()));
+      if (own < 0)
+        own = static_cast<int>(t);
+    }
   *inside = owner >= 0;
   for (int v = 0; v < owner.rows; ++v)
     for (int u = 0; u < owner.cols; ++u)
@@ -106,37 +121,38 @@ void dilate(const cv::Mat& inside, int padding_px, cv::Mat* texture_bgr)
   cv::Mat done = inside.clone();
   for (int ring = 0; ring < padding_px; ++ring)
   {
-    const cv::Mat before = done.clone(), colors = texture_bgr->clone();
+    const cv::Mat before = done.clone();
     for (int v = 0; v < done.rows; ++v)
       for (int u = 0; u < done.cols; ++u)
       {
         if (before.at<std::uint8_t>(v, u))
           continue;
-        cv::Vec3i sum(0, 0, 0);
-        int count = 0;
+        cv::Vec3f sum(0, 0, 0);
+        float count = 0;
         for (int y = std::max(0, v - 1); y <= std::min(done.rows - 1, v + 1); ++y)
           for (int x = std::max(0, u - 1); x <= std::min(done.cols - 1, u + 1); ++x)
             if (before.at<std::uint8_t>(y, x))
             {
-              sum += cv::Vec3i(colors.at<cv::Vec3b>(y, x));
+              sum += texture_bgr->at<cv::Vec3f>(y, x);
               ++count;
             }
         if (count == 0)
           continue;
-        for (int c = 0; c < 3; ++c)
-          texture_bgr->at<cv::Vec3b>(v, u)[c] = static_cast<std::uint8_t>((sum[c] + count / 2) / count);
+        texture_bgr->at<cv::Vec3f>(v, u) = sum / count;
         done.at<std::uint8_t>(v, u) = 255;
       }
   }
 }
+
 }  // namespace
 
-void paintAtlas(const Paint& paint, const Atlas& atlas, int padding_px, cv::Mat* texture_bgr, cv::Mat* seen)
+cv::Mat paintAtlas(const Paint& paint, const Atlas& atlas, const std::vector<ViewImage>& images,
+                   const std::vector<Eigen::Vector3f>& vertex_colors, int padding_px)
 {
-  *texture_bgr = cv::Mat(atlas.size_px, CV_8UC3, cv::Scalar(128, 128, 128));
-  *seen = cv::Mat::zeros(atlas.size_px, CV_8UC1);
+  cv::Mat texture_bgr = cv::Mat::zeros(atlas.size_px, CV_32FC3);
   cv::Mat inside;
   const cv::Mat owner = findOwners(atlas, &inside);
+  const Blend blend(paint, images, vertex_colors);
 #pragma omp parallel for schedule(dynamic, 8)
   for (int v = 0; v < owner.rows; ++v)
   {
@@ -151,15 +167,30 @@ void paintAtlas(const Paint& paint, const Atlas& atlas, int padding_px, cv::Mat*
         candidates = cornerWeights(paint.weights, paint.mesh.triangles[triangle]);
       last = triangle;
       const Eigen::Vector2f texel(static_cast<float>(u), static_cast<float>(v));
-      bool is_seen = false;
-      const Eigen::Vector3f color =
-          blend(paint, candidates, triangle, sharesAt(atlas.texels[triangle], texel), &is_seen);
-      for (int c = 0; c < 3; ++c)
-        texture_bgr->at<cv::Vec3b>(v, u)[c] = static_cast<std::uint8_t>(std::clamp(color[c] + 0.5f, 0.f, 255.f));
-      seen->at<std::uint8_t>(v, u) = is_seen && inside.at<std::uint8_t>(v, u) ? 255 : 0;
+      const Eigen::Vector3f color = blend.at(triangle, candidates, sharesAt(atlas.texels[triangle], texel));
+      texture_bgr.at<cv::Vec3f>(v, u) = { color[0], color[1], color[2] };
     }
   }
-  dilate(owner >= 0, padding_px - 1, texture_bgr);
+  dilate(owner >= 0, padding_px - 1, &texture_bgr);
+  return texture_bgr;
+}
+
+cv::Mat seenTexels(const Paint& paint, const Atlas& atlas)
+{
+  cv::Mat inside, seen = cv::Mat::zeros(atlas.size_px, CV_8UC1);
+  const cv::Mat owner = findOwners(atlas, &inside);
+  for (int v = 0; v < owner.rows; ++v)
+    for (int u = 0; u < owner.cols; ++u)
+    {
+      if (!inside.at<std::uint8_t>(v, u))
+        continue;
+      const int triangle = owner.at<int>(v, u);
+      const Eigen::Vector3f shares = sharesAt(atlas.texels[triangle], { static_cast<float>(u), static_cast<float>(v) });
+      for (int corner = 0; corner < 3; ++corner)
+        if (shares[corner] > ON_EDGE_SHARE && !paint.weights[paint.mesh.triangles[triangle][corner]].empty())
+          seen.at<std::uint8_t>(v, u) = 255;
+    }
+  return seen;
 }
 
 }  // namespace object_modelling::surface

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "atlas.h"
+#include "view_image.h"
 #include "view_weights.h"
 
 namespace object_modelling::surface
@@ -13,12 +14,15 @@ struct Paint
   const geometry::TriangleMesh& mesh;
   const std::vector<TextureView>& views;
   const VertexWeights& weights;
-  const std::vector<Eigen::Vector3f>& gains;
-  const std::vector<Eigen::Vector3f>& vertex_colors;  ///< BGR, for what no view sees
   double view_preference = 1;
 };
 
-/// Paints all texels; those within padding_px of a chart repeat its rim.
-void paintAtlas(const Paint& paint, const Atlas& atlas, int padding_px, cv::Mat* texture_bgr, cv::Mat* seen);
+/// Weighted mean of the views' images at every texel, CV_32FC3; `vertex_colors` (BGR) where no view sees it, zero
+/// without. Texels within padding_px of a chart repeat its rim.
+cv::Mat paintAtlas(const Paint& paint, const Atlas& atlas, const std::vector<ViewImage>& images,
+                   const std::vector<Eigen::Vector3f>& vertex_colors, int padding_px);
+
+/// CV_8UC1, 255 at texels within charts that a view sees.
+cv::Mat seenTexels(const Paint& paint, const Atlas& atlas);
 
 }  // namespace object_modelling::surface

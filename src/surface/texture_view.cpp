@@ -16,8 +16,8 @@ namespace
 {
 constexpr int OCCLUSION_MARGIN_PX = 2;  ///< colour this near to something in front is mixed with its
 constexpr float MIN_COSINE = 0.2f;      ///< flatter sights smear
-constexpr float MIN_RIM_PX = 1.5f;      ///< colour nearer to the rim is mixed with the background
-constexpr float FULL_RIM_PX = 6.f;
+constexpr float MIN_RIM_PX = 2.5f;      ///< colour nearer to the rim is mixed with the background
+constexpr float FULL_RIM_PX = 7.f;
 constexpr float SURFACE_TOLERANCE_M = 0.0015f;  ///< of the mesh against itself
 constexpr float DEPTH_TOLERANCE_M = 0.004f;     ///< of the mesh against measured depth, besides 3 sigmas
 constexpr double SMOOTHING_PX = 1.5;
@@ -37,11 +37,12 @@ void checkImages(const rgbd::Keyframe& keyframe)
   const rgbd::Frame& frame = keyframe.frame;
   const cv::Size size(frame.camera.width, frame.camera.height);
   const auto fits = [&](const cv::Mat& image, int type) { return image.type() == type && image.size() == size; };
-  if (!fits(frame.color_bgr, CV_8UC3) || !(frame.depth_m.empty() || fits(frame.depth_m, CV_32FC1)) ||
+  if (!frame.camera.violations().empty() || !keyframe.T_session_camera.matrix().allFinite() ||
+      !fits(frame.color_bgr, CV_8UC3) || !(frame.depth_m.empty() || fits(frame.depth_m, CV_32FC1)) ||
       !(frame.object_mask.empty() || fits(frame.object_mask, CV_8UC1)))
     throw base::Error(base::StatusCode::BAD_INPUT, "keyframe " + std::to_string(keyframe.id) +
-                                                       " cannot be used for texture: colour, depth, mask and camera "
-                                                       "do not fit together");
+                                                       " cannot be used for texture: colour, depth, mask, camera "
+                                                       "and pose must be sound and fit together");
 }
 
 TextureView prepare(const geometry::TriangleMesh& mesh, const rgbd::Keyframe& keyframe,
@@ -132,19 +133,27 @@ Sighting sight(const TextureView& view, const Eigen::Vector3f& p_mesh, const Eig
   return result;
 }
 
-Eigen::Vector3f colorAt(const cv::Mat& image_bgr, const Eigen::Vector2f& pixel)
+namespace
 {
-  const float u = std::clamp(pixel.x(), 0.f, static_cast<float>(image_bgr.cols - 1));
-  const float v = std::clamp(pixel.y(), 0.f, static_cast<float>(image_bgr.rows - 1));
-  const int x = std::min(static_cast<int>(u), image_bgr.cols - 2),
-            y = std::min(static_cast<int>(v), image_bgr.rows - 2);
+template <typename Pixel>
+Eigen::Vector3f bilinear(const cv::Mat& image, const Eigen::Vector2f& pixel)
+{
+  const float u = std::clamp(pixel.x(), 0.f, static_cast<float>(image.cols - 1));
+  const float v = std::clamp(pixel.y(), 0.f, static_cast<float>(image.rows - 1));
+  const int x = std::min(static_cast<int>(u), image.cols - 2), y = std::min(static_cast<int>(v), image.rows - 2);
   const float a = u - static_cast<float>(x), b = v - static_cast<float>(y);
-  const cv::Vec3b* upper = image_bgr.ptr<cv::Vec3b>(y) + x;
-  const cv::Vec3b* lower = image_bgr.ptr<cv::Vec3b>(y + 1) + x;
+  const Pixel* upper = image.ptr<Pixel>(y) + x;
+  const Pixel* lower = image.ptr<Pixel>(y + 1) + x;
   Eigen::Vector3f color;
   for (int c = 0; c < 3; ++c)
     color[c] = (1 - b) * ((1 - a) * upper[0][c] + a * upper[1][c]) + b * ((1 - a) * lower[0][c] + a * lower[1][c]);
   return color;
+}
+}  // namespace
+
+Eigen::Vector3f colorAt(const cv::Mat& image_bgr, const Eigen::Vector2f& pixel)
+{
+  return image_bgr.type() == CV_8UC3 ? bilinear<cv::Vec3b>(image_bgr, pixel) : bilinear<cv::Vec3f>(image_bgr, pixel);
 }
 
 }  // namespace object_modelling::surface

@@ -55,7 +55,7 @@ inline float pixelSize_m(const TextureView& view, const Eigen::Vector3f& p_mesh)
   return (view.T_camera_mesh * p_mesh).z() / static_cast<float>(view.frame->camera.fx);
 }
 
-/// Bilinear; places outside count as the image's rim.
+/// Bilinear, of CV_8UC3 or CV_32FC3; places outside count as the image's rim.
 Eigen::Vector3f colorAt(const cv::Mat& image_bgr, const Eigen::Vector2f& pixel);
 
 }  // namespace object_modelling::surface

@@ -156,12 +156,17 @@ TextureResult textureMesh(const geometry::TriangleMesh& input, const std::vector
   control.report("texture", 0, STAGES);
   if (input.empty())
     return nothing(base::StatusCode::INVALID_ARGUMENT, "the mesh has no triangles");
+  for (const auto& triangle : input.triangles)
+    for (const std::uint32_t vertex : triangle)
+      if (vertex >= input.vertices.size())
+        return nothing(base::StatusCode::INVALID_ARGUMENT,
+                       "a triangle of the mesh has vertex " + std::to_string(vertex) + ", which does not exist");
   if (keyframes.empty())
     return nothing(base::StatusCode::NO_RESULT, "there are no views; record keyframes of the object");
   TextureResult result;
   result.textured.mesh = input;
   const geometry::TriangleMesh& mesh = result.textured.mesh;
-  if (mesh.normals.empty())
+  if (mesh.normals.size() != mesh.vertices.size())
     geometry::computeNormals(&result.textured.mesh);
 
   const std::vector<TextureView> views = prepareTextureViews(mesh, keyframes, options.color_offset_px);
@@ -188,8 +193,13 @@ TextureResult textureMesh(const geometry::TriangleMesh& input, const std::vector
   result.texel_size_m = atlas.texel_size_m;
 
   control.report("texture", 3, STAGES);
-  const Paint paint{ mesh, views, weights, gains, colors, options.view_preference };
-  paintAtlas(paint, atlas, options.padding_px, &result.textured.texture_bgr, &result.textured.seen);
+  const Paint paint{ mesh, views, weights, options.view_preference };
+  std::vector<ViewImage> images(views.size());
+  for (std::size_t k = 0; k < views.size(); ++k)
+    images[k] = correctedImage(views[k], gains[k]);
+  const cv::Mat texture_bgr = paintAtlas(paint, atlas, images, colors, options.padding_px);
+  texture_bgr.convertTo(result.textured.texture_bgr, CV_8UC3);
+  result.textured.seen = seenTexels(paint, atlas);
   measureSeams(paint, atlas, &result);
   result.seen_ratio = seenRatio(mesh, weights);
   result.gains.assign(keyframes.size(), Eigen::Vector3f::Ones());

@@ -16,6 +16,7 @@
 #include "object_modelling/pipeline/record_session.h"
 #include "object_modelling/pipeline/session_jobs.h"
 #include "object_modelling/source/tum_folder.h"
+#include "object_modelling/surface/mesh_files.h"
 #include "object_modelling/surface/surface_reconstruction.h"
 #include "object_modelling/surface/textured_mesh_files.h"
 #include "object_modelling/surface/textured_renderer.h"
@@ -95,12 +96,33 @@ Model makeModel(const std::string& recording, const Arguments& arguments)
   return model;
 }
 
+/// A true mesh without texture is of one colour, which a fit per channel finds.
+surface::TexturedMesh readTruth(const std::string& path)
+{
+  try
+  {
+    return surface::readTexturedMesh(path);
+  }
+  catch (const base::Error& error)
+  {
+    if (error.code() != base::StatusCode::BAD_INPUT)
+      throw;
+  }
+  surface::TexturedMesh plain;
+  plain.mesh = surface::readMesh(path);
+  geometry::computeNormals(&plain.mesh);
+  plain.texture_bgr = cv::Mat(4, 4, CV_8UC3, cv::Scalar(128, 128, 128));
+  plain.uvs.assign(plain.mesh.triangles.size(),
+                   { Eigen::Vector2f(0.5f, 0.5f), Eigen::Vector2f(0.5f, 0.5f), Eigen::Vector2f(0.5f, 0.5f) });
+  return plain;
+}
+
 /// Where the true mesh stands in the frames of a recording.
 class Truth
 {
 public:
   Truth(const std::string& recording, const std::string& mesh, int object)
-      : textured_(surface::readTexturedMesh(mesh)), trajectory_(source::readTrajectory(recording + "/groundtruth.txt"))
+      : textured_(readTruth(mesh)), trajectory_(source::readTrajectory(recording + "/groundtruth.txt"))
   {
     const YAML::Node objects = YAML::LoadFile(recording + "/objects.yaml")["objects"];
     const YAML::Node rows = objects[object]["T_world_object"];

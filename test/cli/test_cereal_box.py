@@ -50,7 +50,8 @@ class CerealBoxTest(unittest.TestCase):
         info = run_json("info", self.database)
         self.assertEqual(info["problems"], [])
         folder = self.result["build"]["object_folder"]
-        for name in ("object.yaml", "cloud.pcd", "mesh/mesh.ply", "mesh/mesh.obj", "preview.png"):
+        for name in ("object.yaml", "cloud.pcd", "mesh/mesh.ply", "mesh/mesh.obj", "mesh/textured.obj",
+                     "mesh/textured.png", "mesh/textured.glb", "preview.png"):
             self.assertGreater(os.path.getsize(os.path.join(folder, name)), 100, name)
 
     def test_the_store_keeps_the_session(self):

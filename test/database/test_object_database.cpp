@@ -8,6 +8,7 @@
 #include "object_modelling/base/atomic_file.h"
 #include "object_modelling/database/object_database.h"
 #include "object_modelling/surface/mesh_files.h"
+#include "object_modelling/surface/textured_mesh_files.h"
 #include "support/temp_dir.h"
 
 namespace object_modelling::database
@@ -78,6 +79,27 @@ TEST_F(ObjectDatabaseTest, HasTheDocumentedFiles)
     EXPECT_NE(files.at("object.yaml").find(text), std::string::npos) << text;
   const cv::Mat preview = cv::imread(database_.root() + "/cereal/preview.png");
   EXPECT_EQ(cv::norm(preview, makeModel("x").preview_bgr, cv::NORM_INF), 0);
+}
+
+TEST_F(ObjectDatabaseTest, HoldsTheTexture)
+{
+  ObjectModel model = makeModel("cereal");
+  model.textured.mesh = model.mesh;
+  model.textured.uvs.assign(model.mesh.triangles.size(),
+                            { Eigen::Vector2f(0.1f, 0.2f), Eigen::Vector2f(0.9f, 0.2f), Eigen::Vector2f(0.5f, 0.8f) });
+  model.textured.texture_bgr = cv::Mat(16, 20, CV_8UC3, cv::Scalar(10, 200, 90));
+  model.textured.seen = cv::Mat(16, 20, CV_8UC1, cv::Scalar(255));
+  const std::string folder = write(model) + "/mesh/";
+  for (const std::string name : { "textured.obj", "textured.glb" })
+  {
+    const surface::TexturedMesh back = surface::readTexturedMesh(folder + name);
+    EXPECT_EQ(back.mesh.triangles.size(), model.mesh.triangles.size()) << name;
+    EXPECT_EQ(cv::norm(back.texture_bgr, model.textured.texture_bgr, cv::NORM_INF), 0) << name;
+  }
+  EXPECT_EQ(cv::imread(folder + "textured_seen.png", cv::IMREAD_GRAYSCALE).size(), cv::Size(20, 16));
+  EXPECT_EQ(database_.check(), std::vector<std::string>());
+  std::filesystem::remove(folder + "textured.mtl");
+  EXPECT_EQ(database_.check().size(), 1u);
 }
 
 TEST_F(ObjectDatabaseTest, SameModelSameBytes)

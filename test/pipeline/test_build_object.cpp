@@ -69,8 +69,10 @@ TEST_F(BuildObject, WritesTheObjectInItsOwnFrame)
   EXPECT_GT(report.triangle_count, report.vertex_count);
   EXPECT_TRUE(std::filesystem::exists(report.preview_path)) << report.preview_path;
   EXPECT_EQ(report.object_folder, database_.root() + "/carton");
-  for (const std::string stage : { "load", "fuse", "surface", "write" })
+  for (const std::string stage : { "load", "fuse", "surface", "texture", "write" })
     EXPECT_EQ(report.stage_s.count(stage), 1u) << stage;
+  for (const std::string name : { "textured.obj", "textured.mtl", "textured.png", "textured.glb" })
+    EXPECT_TRUE(std::filesystem::exists(report.object_folder + "/mesh/" + name)) << name;
 
   EXPECT_EQ(database_.check(), std::vector<std::string>());
   const database::ObjectEntry entry = database_.entry("carton");

@@ -193,6 +193,9 @@ TEST(Texturing, SaysWhyThereIsNone)
   views = roundTheBox(boxScene(), 4);
   views[1].frame.color_bgr = cv::Mat::zeros(10, 10, CV_8UC3);
   EXPECT_THROW(texture(mesh, views), base::Error);
+  geometry::TriangleMesh broken = mesh;
+  broken.triangles[0][1] = 100000;
+  EXPECT_EQ(texture(broken, roundTheBox(boxScene(), 4)).status.code, base::StatusCode::INVALID_ARGUMENT);
   TextureOptions options;
   options.texel_size_m = 0;
   options.padding_px = 0;
