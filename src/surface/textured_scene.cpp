@@ -87,10 +87,9 @@ void fillMaterial(const std::string& texture_file, aiMaterial* material)
   const aiString name("textured"), file(texture_file);
   material->AddProperty(&name, AI_MATKEY_NAME);
   material->AddProperty(&file, AI_MATKEY_TEXTURE_DIFFUSE(0));
-  const aiColor3D white(1, 1, 1), black(0, 0, 0);
+  const aiColor3D white(1, 1, 1);
   material->AddProperty(&white, 1, AI_MATKEY_COLOR_DIFFUSE);
   material->AddProperty(&white, 1, AI_MATKEY_COLOR_AMBIENT);
-  material->AddProperty(&black, 1, AI_MATKEY_COLOR_SPECULAR);
   // The names of glTF's factors changed between assimp 5.0 and 5.2; unset, viewers show polished metal.
   const float none = 0, full = 1;
   for (const char* key : { "$mat.gltf.pbrMetallicRoughness.metallicFactor", "$mat.metallicFactor" })

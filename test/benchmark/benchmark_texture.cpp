@@ -130,6 +130,8 @@ public:
       for (int column = 0; column < 4; ++column)
         T_world_object_(row, column) = rows[row][column].as<double>();
   }
+  /// Of one colour.
+  bool plain() const { return textured_.texture_bgr.total() <= 16; }
   /// Seen at a frame of the recording.
   surface::MeshView render(const geometry::PinholeCamera& camera, double stamp_s) const
   {
@@ -221,7 +223,8 @@ void measure(const std::string& recording, const Arguments& arguments)
     image_worst = std::min(image_worst, image_dB);
     if (truth)
     {
-      const double truth_dB = psnrAfterFit_dB(drawn.color_bgr, true_view->color_bgr, mask, true);
+      // Any picture fits one colour.
+      const double truth_dB = truth->plain() ? NAN : psnrAfterFit_dB(drawn.color_bgr, true_view->color_bgr, mask, true);
       const double lit_dB =
           psnrUnderLight_dB(drawn.color_bgr, true_view->color_bgr, normalsOf(drawn, model.mesh), mask, &lit_truth);
       lit_sum += lit_dB;
