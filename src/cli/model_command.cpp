@@ -35,15 +35,9 @@ void throwUnlessOk(const std::string& stage, const base::Status& status)
     throw base::Error(status.code, stage + ": " + status.message);
 }
 
-struct ProcessedRecording
-{
-  std::string session_id;
-  Eigen::Vector2d color_offset_px = Eigen::Vector2d::Zero();
-};
-
 /// One recording through tracking, refinement and segmentation; text and JSON are appended to the output.
-ProcessedRecording processRecording(const std::string& recording, const Arguments& arguments,
-                                    keyframes::SessionStore& store, base::JobControl& control, CommandOutput* output)
+std::string processRecording(const std::string& recording, const Arguments& arguments, keyframes::SessionStore& store,
+                             base::JobControl& control, CommandOutput* output)
 {
   const std::unique_ptr<source::FrameSource> source = ros_bridge::openRecording(recording);
   keyframes::Session session;
@@ -69,7 +63,7 @@ ProcessedRecording processRecording(const std::string& recording, const Argument
   json["segmentation"] = toJson(segmented);
   throwUnlessOk("segmentation of session '" + session.id + "'", segmented.status);
   output->json["sessions"].push_back(std::move(json));
-  return { session.id, refined.color_offset_px };
+  return session.id;
 }
 
 CommandOutput run(const Arguments& arguments, base::JobControl& control)
@@ -90,13 +84,7 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
   std::vector<std::string> session_ids;
   pipeline::BuildOptions options;
   for (const std::string& recording : arguments.recordings)
-  {
-    const ProcessedRecording processed = processRecording(recording, arguments, store, control, &output);
-    session_ids.push_back(processed.session_id);
-    // Of the camera, so the same for all recordings but for errors.
-    options.texture.color_offset_px += processed.color_offset_px / static_cast<double>(arguments.recordings.size());
-  }
-  options.fusion.color_offset_px = options.texture.color_offset_px;
+    session_ids.push_back(processRecording(recording, arguments, store, control, &output));
 
   const alignment::AlignmentResult aligned = pipeline::alignSessions(store, session_ids, control);
   throwUnlessOk("alignment", aligned.status);

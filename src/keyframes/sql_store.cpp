@@ -4,6 +4,7 @@
 
 #include "object_modelling/base/options.h"
 #include "object_modelling/keyframes/session_store.h"
+#include "object_modelling/rgbd/corrected.h"
 #include "session_file.h"
 #include "sql_connection.h"
 #include "store_rows.h"
@@ -131,6 +132,8 @@ public:
     rgbd::Keyframe keyframe =
         decodeKeyframe(row, "keyframe " + std::to_string(keyframe_id) + " of " + sessionText(session_id));
     keyframe.frame.noise_model = session.calibration.noise_model;
+    if (!session.calibration.correction.isIdentity())
+      keyframe = rgbd::corrected(keyframe, session.calibration.correction);
     return keyframe;
   }
 

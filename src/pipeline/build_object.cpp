@@ -7,6 +7,7 @@
 #include "object_modelling/base/options.h"
 #include "object_modelling/pipeline/report_maker.h"
 #include "object_modelling/surface/textured_renderer.h"
+#include "quality_figures.h"
 #include "quality_report.h"
 
 namespace object_modelling::pipeline
@@ -102,20 +103,19 @@ void transform(const Eigen::Isometry3d& T_target_source, fusion::FusedCloud* clo
     normal = T.linear() * normal;
 }
 
-double meanSigma_m(const fusion::FusedCloud& cloud)
+/// Sessions of one camera have one shift, but for errors.
+Eigen::Vector2d meanColorOffset_px(const std::vector<keyframes::Session>& sessions)
 {
-  double sum = 0;
-  for (const float sigma_m : cloud.sigmas_m)
-    sum += sigma_m;
-  return cloud.sigmas_m.empty() ? 0 : sum / static_cast<double>(cloud.sigmas_m.size());
+  Eigen::Vector2d sum_px = Eigen::Vector2d::Zero();
+  for (const keyframes::Session& session : sessions)
+    sum_px += session.calibration.color_offset_px;
+  return sum_px / static_cast<double>(sessions.size());
 }
 
 /// What the object of a single session stood on. Of several, each saw what another one stood on.
-std::optional<geometry::Plane> supportOf(const Views& views, const Eigen::Isometry3d& T_model_reference)
+std::optional<geometry::Plane> supportOf(const Views& views)
 {
-  if (views.sessions.size() != 1 || !views.support_plane_reference)
-    return std::nullopt;
-  return geometry::transformed(T_model_reference, *views.support_plane_reference);
+  return views.sessions.size() == 1 ? views.support_plane_reference : std::nullopt;
 }
 
 /// Everything of the model but its geometry.
@@ -215,26 +215,31 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
   }
   timer.finish("load");
 
-  fusion::CloudFusionResult fused = fusion::fuse(views.keyframes, options.fusion, control);
+  fusion::CloudFusionOptions fusion_options = options.fusion;
+  surface::TextureOptions texture_options = options.texture;
+  fusion_options.color_offset_px += meanColorOffset_px(views.sessions);
+  texture_options.color_offset_px += meanColorOffset_px(views.sessions);
+  fusion::CloudFusionResult fused = fusion::fuse(views.keyframes, fusion_options, control);
   report.status = fused.status;
   if (!report.status.ok())
     return report;
-  const geometry::OrientedBox box_reference = objectBox(fused.cloud.points, views.support_plane_reference);
-  if (!T_model_reference)
-    T_model_reference = box_reference.T_frame_box.inverse();
-  transform(*T_model_reference, &fused.cloud);
   timer.finish("fuse");
 
-  surface::SurfaceResult surface =
-      surface::reconstructSurface(fused.cloud, supportOf(views, *T_model_reference), options.surface, control);
+  surface::SurfaceResult surface = surface::reconstructSurface(fused.cloud, supportOf(views), options.surface, control);
   report.status = surface.status;
   if (!report.status.ok())
     return report;
+  // Of the mesh: a few fused points that stand out would widen it.
+  const geometry::OrientedBox box_reference = objectBox(surface.mesh.vertices, views.support_plane_reference);
+  if (!T_model_reference)
+    T_model_reference = box_reference.T_frame_box.inverse();
+  transform(*T_model_reference, &fused.cloud);
+  geometry::transform(*T_model_reference, &surface.mesh);
   timer.finish("surface");
 
   for (rgbd::Keyframe& view : views.keyframes)
     view.T_session_camera = *T_model_reference * view.T_session_camera;
-  surface::TextureResult texture = surface::textureMesh(surface.mesh, views.keyframes, options.texture, control);
+  surface::TextureResult texture = surface::textureMesh(surface.mesh, views.keyframes, texture_options, control);
   report.status = texture.status;
   if (!report.status.ok())
     return report;
@@ -244,19 +249,8 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
   model.id = object_id;
   model.name = name.empty() ? object_id : name;
   describe(views, placements, *T_model_reference, box_reference, &model);
-  model.diameter_m = diameter_m(fused.cloud.points);
-  model.quality = { { "view_count", static_cast<double>(views.keyframes.size()) },
-                    { "point_count", static_cast<double>(fused.cloud.size()) },
-                    { "mean_sigma_m", meanSigma_m(fused.cloud) },
-                    { "texture_seen_ratio", texture.seen_ratio },
-                    { "texture_chart_count", static_cast<double>(texture.chart_count) },
-                    { "texture_texel_size_m", texture.texel_size_m },
-                    { "texture_seam_step_before", texture.seam_step_before },
-                    { "texture_seam_step_after", texture.seam_step_after },
-                    { "inconsistent_observation_ratio",
-                      static_cast<double>(fused.observations_inconsistent) /
-                          static_cast<double>(
-                              std::max<std::size_t>(1, fused.observations_used + fused.observations_inconsistent)) } };
+  model.diameter_m = diameter_m(surface.mesh.vertices);
+  model.quality = qualityFigures(views.keyframes.size(), fused, surface.mesh, texture);
   model.provenance = { { "software", "object_modelling " OBJECT_MODELLING_VERSION },
                        { "fusion_resolution_m", std::to_string(options.fusion.resolution_m) },
                        { "surface_resolution_m", std::to_string(options.surface.resolution_m) } };
@@ -279,6 +273,8 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
                                           report.status = reportStatus(folder, object_id, database.root(), control);
                                           timer.finish("report");
                                         });
+  if (!surface.warning.empty())
+    report.status.message += (report.status.message.empty() ? "" : "; ") + surface.warning;
   report.preview_path = report.object_folder + "/preview.png";
   report.size_m = model.box_model.size_m;
   report.diameter_m = model.diameter_m;

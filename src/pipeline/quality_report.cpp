@@ -158,6 +158,13 @@ void emitParameters(YAML::Emitter& out, const BuildOptions& options)
   put(out, "fusion/weight/sigma_lateral_m", options.fusion.weight.sigma_lateral_m);
   put(out, "surface/resolution_m", options.surface.resolution_m);
   put(out, "surface/max_support_distance_m", options.surface.max_support_distance_m);
+  put(out, "surface/watertight", options.surface.watertight);
+  put(out, "surface/max_triangles", options.surface.max_triangles);
+  put(out, "surface/max_decimation_error_m", options.surface.max_decimation_error_m);
+  put(out, "texture/texel_size_m", options.texture.texel_size_m);
+  put(out, "texture/max_atlas_px", options.texture.max_atlas_px);
+  put(out, "texture/view_preference", options.texture.view_preference);
+  put(out, "texture/outlier_tolerance", options.texture.outlier_tolerance);
   out << YAML::EndMap;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "object_modelling/base/options.h"
+#include "object_modelling/rgbd/corrected.h"
 #include "object_modelling/segmentation/object_follower.h"
 #include "refinement_report.h"
 #include "session_loading.h"
@@ -78,6 +79,9 @@ SessionRefinement refineSessionBy(keyframes::SessionStore& store, const std::str
   {
     refined.bundle_adjustment = refinement::adjustBundle(keyframes, options.bundle_adjustment, control);
     moved = takeOver(*refined.bundle_adjustment, &keyframes);
+    if (moved && !refined.bundle_adjustment->sensor.isIdentity())
+      for (rgbd::Keyframe& keyframe : keyframes)
+        keyframe = rgbd::corrected(keyframe, refined.bundle_adjustment->sensor);
     refined.status = refined.bundle_adjustment->status;
   }
   if (options.method != RefinementMethod::BUNDLE_ADJUSTMENT)
@@ -106,6 +110,7 @@ SessionRefinement refineSessionBy(keyframes::SessionStore& store, const std::str
   {
     keyframes::Session current = store.session(session_id);
     current.refinement_report = refinementReportYaml(*refined.bundle_adjustment);
+    current.calibration.correction = current.calibration.correction.then(refined.bundle_adjustment->sensor);
     if (options.bundle_adjustment.calibrate_color_offset)
       current.calibration.color_offset_px = refined.bundle_adjustment->color_offset_px;
     store.updateSession(current);

@@ -3,6 +3,7 @@
 #include "adjustment_report.h"
 #include "bundle_adjuster.h"
 #include "object_modelling/base/options.h"
+#include "object_modelling/rgbd/corrected.h"
 
 namespace object_modelling::refinement
 {
@@ -27,11 +28,7 @@ BundleAdjustmentResult adjustBundle(const std::vector<rgbd::Keyframe>& keyframes
   const rgbd::SensorCorrection sensor = BundleAdjuster(keyframes, options, &control).calibrate();
   std::vector<rgbd::Keyframe> right = keyframes;
   for (rgbd::Keyframe& keyframe : right)
-  {
-    keyframe.frame = rgbd::corrected(keyframe.frame, sensor);
-    for (rgbd::Observation& observation : keyframe.observations)
-      observation.depth_m = static_cast<float>(sensor.depth_ratio * observation.depth_m + sensor.depth_offset_m);
-  }
+    keyframe = rgbd::corrected(keyframe, sensor);
   BundleAdjustmentOptions rest = options;
   rest.calibrate_intrinsics = rest.calibrate_depth_ratio = rest.calibrate_depth_offset = false;
   BundleAdjustmentResult result = reportOf(right, rest, BundleAdjuster(right, rest, &control).run());

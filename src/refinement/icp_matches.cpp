@@ -241,7 +241,7 @@ IcpMatches matchViews(const IcpView& a, const IcpView& b, const Eigen::Isometry3
       match.p_a = a.point(partner.x, partner.y);
       match.n_a = a.normal(partner.x, partner.y);
     }
-    const float sigma_a_m = surfaceSigma_m(match.p_a, match.n_a);
+    const float sigma_a_m = a.surfaceSigma_m(match.p_a, match.n_a);
     const float noise_m = std::sqrt(point.sigma_m * point.sigma_m + sigma_a_m * sigma_a_m);
     const float distance_m = std::abs(match.n_a.dot(q - match.p_a));
     if (n.dot(match.n_a) < min_cosine || distance_m > gate_m + GATE_SIGMAS * noise_m)

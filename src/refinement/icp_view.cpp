@@ -91,17 +91,18 @@ int bucketOf(const Eigen::Vector3f& n)
 }
 }  // namespace
 
-float surfaceSigma_m(const Eigen::Vector3f& p, const Eigen::Vector3f& n)
+float IcpView::surfaceSigma_m(const Eigen::Vector3f& p, const Eigen::Vector3f& n) const
 {
   const float cosine = std::max(MIN_FACING_COSINE, -n.dot(p.normalized()));
   const auto noise_m =
-      AVERAGED_NOISE * static_cast<float>(rgbd::axialSigma_m(p.z(), std::acos(std::min(1.0F, cosine))));
+      AVERAGED_NOISE * static_cast<float>(noise_model_.axialSigma_m(p.z(), std::acos(std::min(1.0F, cosine))));
   const float systematic_m = SYSTEMATIC_DEPTH_RATIO * p.z();
   return cosine * std::sqrt(noise_m * noise_m + systematic_m * systematic_m);
 }
 
 IcpView::IcpView(const rgbd::Frame& frame, const MultiViewIcpOptions& options)
 {
+  noise_model_ = frame.noise_model;
   rgbd::Frame reduced;
   reduced.camera = frame.camera;
   reduced.depth_m = frame.depth_m;

@@ -55,6 +55,8 @@ public:
   }
   cv::Size size() const { return depth_m_.size(); }
   float focal_px() const { return fx_cx_.x(); }
+  /// Sigma (m) along the normal of a point of a surface, from noise model and what averaging does not remove.
+  float surfaceSigma_m(const Eigen::Vector3f& p, const Eigen::Vector3f& n) const;
 
   const std::vector<IcpPoint>& surfacePoints() const { return surface_points_; }
   const std::vector<IcpPoint>& colorPoints() const { return color_points_; }
@@ -68,13 +70,11 @@ private:
   IcpPoint pointAt(int u, int v) const;
 
   Eigen::Vector2f fx_cx_, fy_cy_;
+  rgbd::SensorNoiseModel noise_model_;
   cv::Mat depth_m_, normals_, usable_;
   std::vector<IcpImage> images_;
   std::vector<IcpPoint> surface_points_, color_points_;
   std::vector<Eigen::Vector3f> rim_points_;
 };
-
-/// Sigma (m) along the normal of a point of a surface, from noise model and what averaging does not remove.
-float surfaceSigma_m(const Eigen::Vector3f& p, const Eigen::Vector3f& n);
 
 }  // namespace object_modelling::refinement

@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <sstream>
 
@@ -20,6 +21,7 @@ using base::StatusCode;
 constexpr char DISTORTION[] = "depth_distortion_ratio";
 constexpr char NOISE_MODEL[] = "noise_model";
 constexpr char COLOR_OFFSET[] = "color_offset_px";
+constexpr char CORRECTION[] = "correction";
 
 void emit(YAML::Emitter& out, const SensorNoiseModel& model)
 {
@@ -97,6 +99,42 @@ SensorNoiseModel modelFrom(const YAML::Node& node, const std::string& what)
   }
 }
 
+/// All numbers in a row, as they stand in the struct.
+void emit(YAML::Emitter& out, const SensorCorrection& correction)
+{
+  out << YAML::Key << CORRECTION << YAML::Value << YAML::Flow << YAML::BeginMap;
+  const auto number = [&](const char* key, double value)
+  { out << YAML::Key << key << YAML::Value << base::yamlNumber(value); };
+  number("focal_ratio_x", correction.focal_ratio.x());
+  number("focal_ratio_y", correction.focal_ratio.y());
+  number("principal_shift_x_px", correction.principal_shift_px.x());
+  number("principal_shift_y_px", correction.principal_shift_px.y());
+  number("depth_ratio", correction.depth_ratio);
+  number("depth_offset_m", correction.depth_offset_m);
+  out << YAML::EndMap;
+}
+
+SensorCorrection correctionFrom(const YAML::Node& node, const std::string& what)
+{
+  const auto number = [&](const char* key)
+  {
+    if (!node.IsMap() || !node[key])
+      refuse(what, std::string(CORRECTION) + " has no " + key);
+    const auto value = node[key].as<double>();
+    if (!std::isfinite(value))
+      refuse(what, std::string(CORRECTION) + ": " + key + " is not finite");
+    return value;
+  };
+  SensorCorrection correction;
+  correction.focal_ratio = { number("focal_ratio_x"), number("focal_ratio_y") };
+  correction.principal_shift_px = { number("principal_shift_x_px"), number("principal_shift_y_px") };
+  correction.depth_ratio = number("depth_ratio");
+  correction.depth_offset_m = number("depth_offset_m");
+  if (!(correction.focal_ratio.minCoeff() > 0 && correction.depth_ratio > 0))
+    refuse(what, std::string(CORRECTION) + ": ratios must be positive");
+  return correction;
+}
+
 /// Calls `read` with the parsed text; what yaml-cpp throws becomes BAD_INPUT.
 template <typename Read>
 auto parsed(const std::string& text, const std::string& what, const Read& read)
@@ -136,7 +174,10 @@ std::string calibrationText(const SensorCalibration& calibration)
   emit(out, calibration.noise_model);
   out << YAML::Key << COLOR_OFFSET << YAML::Value << YAML::Flow << YAML::BeginSeq
       << base::yamlNumber(calibration.color_offset_px.x()) << base::yamlNumber(calibration.color_offset_px.y())
-      << YAML::EndSeq << YAML::EndMap;
+      << YAML::EndSeq;
+  if (!(calibration.correction == SensorCorrection()))
+    emit(out, calibration.correction);
+  out << YAML::EndMap;
   return std::string(out.c_str()) + "\n";
 }
 
@@ -155,6 +196,8 @@ SensorCalibration calibrationFromText(const std::string& text, const std::string
                       calibration.noise_model = modelFrom(entry.second, what);
                     else if (key == COLOR_OFFSET && entry.second.IsSequence() && entry.second.size() == 2)
                       calibration.color_offset_px = { entry.second[0].as<double>(), entry.second[1].as<double>() };
+                    else if (key == CORRECTION)
+                      calibration.correction = correctionFrom(entry.second, what);
                     else
                       refuse(what, "'" + key + "' is not known or not of the form it must have");
                   }

@@ -40,6 +40,11 @@ object_modelling::SensorCalibration toMessage(const rgbd::SensorCalibration& cal
   message.noise_model = toMessage(calibration.noise_model);
   message.color_offset_px[0] = calibration.color_offset_px.x();
   message.color_offset_px[1] = calibration.color_offset_px.y();
+  const rgbd::SensorCorrection& correction = calibration.correction;
+  message.focal_ratio = { correction.focal_ratio.x(), correction.focal_ratio.y() };
+  message.principal_shift_px = { correction.principal_shift_px.x(), correction.principal_shift_px.y() };
+  message.depth_ratio = correction.depth_ratio;
+  message.depth_offset_m = correction.depth_offset_m;
   return message;
 }
 
@@ -58,7 +63,15 @@ rgbd::SensorNoiseModel fromMessage(const object_modelling::SensorNoiseModel& mes
 
 rgbd::SensorCalibration fromMessage(const object_modelling::SensorCalibration& message)
 {
-  return { fromMessage(message.noise_model), { message.color_offset_px[0], message.color_offset_px[1] } };
+  rgbd::SensorCorrection correction;
+  correction.focal_ratio = { message.focal_ratio[0], message.focal_ratio[1] };
+  correction.principal_shift_px = { message.principal_shift_px[0], message.principal_shift_px[1] };
+  correction.depth_ratio = message.depth_ratio;
+  correction.depth_offset_m = message.depth_offset_m;
+  if (!(correction.focal_ratio.minCoeff() > 0 && correction.depth_ratio > 0))
+    throw base::Error(base::StatusCode::INVALID_ARGUMENT,
+                      "calibration: focal_ratio and depth_ratio must be positive; 1 where nothing is known");
+  return { fromMessage(message.noise_model), { message.color_offset_px[0], message.color_offset_px[1] }, correction };
 }
 
 }  // namespace object_modelling::ros_bridge

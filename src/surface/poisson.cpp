@@ -12,6 +12,8 @@ namespace object_modelling::surface
 namespace
 {
 constexpr float BOX_SCALE = 1.1f;  ///< edge of the octree over that of the points
+// Fused points are averaged already. With the usual weight of 4 the sides of a thin wall pull each other flat.
+constexpr float POINT_WEIGHT = 60;
 constexpr int MIN_DEPTH = 4, MAX_DEPTH = 10;
 
 }  // namespace
@@ -33,6 +35,7 @@ geometry::TriangleMesh poissonSurface(const std::vector<Eigen::Vector3f>& points
   pcl::Poisson<pcl::PointNormal> poisson;
   poisson.setDepth(std::clamp(static_cast<int>(std::ceil(std::log2(std::max(cells, 1.0)))), MIN_DEPTH, MAX_DEPTH));
   poisson.setScale(BOX_SCALE);
+  poisson.setPointWeight(POINT_WEIGHT);
   poisson.setInputCloud(cloud);
   pcl::PointCloud<pcl::PointNormal> vertices;
   std::vector<pcl::Vertices> polygons;

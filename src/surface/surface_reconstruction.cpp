@@ -19,6 +19,7 @@ constexpr std::size_t NEIGHBOURS = 24;
 constexpr std::size_t COLOR_NEIGHBOURS = 4;
 /// Surface this near to a fused point is seen even at the rim of the cloud; in units of the resolution.
 constexpr float RIM_RATIO = 1.f;
+constexpr double CELL_RATIO = 0.5;  ///< of the resolution: between the two sides of a thin wall there must be cells
 constexpr double MIN_PIECE_RATIO = 0.02;  ///< of the largest piece's area
 constexpr int STAGES = 4;
 
@@ -110,7 +111,7 @@ SurfaceResult reconstructSurface(const fusion::FusedCloud& cloud, const std::opt
   std::vector<Eigen::Vector3f> points = cloud.points, normals = cloud.normals;
   if (options.watertight && support)
     addBase(*support, options.resolution_m, &points, &normals);
-  geometry::TriangleMesh mesh = poissonSurface(points, normals, options.resolution_m);
+  geometry::TriangleMesh mesh = poissonSurface(points, normals, CELL_RATIO * options.resolution_m);
   removeDegenerateTriangles(&mesh);
   geometry::computeNormals(&mesh);
 

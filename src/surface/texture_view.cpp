@@ -121,7 +121,7 @@ Sighting sight(const TextureView& view, const Eigen::Vector3f& p_mesh, const Eig
   if (!view.nearest_depth_m.empty())
   {
     const float tolerance_m =
-        DEPTH_TOLERANCE_M + 3 * static_cast<float>(rgbd::axialSigma_m(z_m, 0)) + 2 * slope_m_per_px;
+        DEPTH_TOLERANCE_M + 3 * static_cast<float>(view.frame->noise_model.axialSigma_m(z_m, 0)) + 2 * slope_m_per_px;
     const float measured_m = view.frame->depthAt_m(u, v);
     const bool behind = measured_m > z_m + tolerance_m;  // false without depth
     const bool unknown = std::isnan(measured_m) && view.frame->object_mask.empty();

@@ -26,6 +26,10 @@ def true_mesh(recording, kit):
     return os.path.join(kit, "objects", name, "textured.obj")
 
 
+def cell(value, digits):
+    return "" if value is None else f"{value:.{digits}f}"
+
+
 def build(arguments, recording, folder):
     name = name_of(recording)
     command = [arguments.command, "model", name, recording, "--database", folder, "--json", "--replace", *arguments.option]
@@ -48,10 +52,12 @@ def markdown(everything):
     for name, result in everything.items():
         scored, stages = result["score"], result["model"]["build"]["stage_s"]
         accuracy = scored["accuracy_mm"]
-        lines.append(f"| {name} | {accuracy['mean']:.2f} | {accuracy['sigma']:.2f} | {accuracy['p95']:.2f} | "
-                     f"{100 * scored['outlier_fraction']:.2f} | {100 * scored['completeness_visible']['2mm']:.1f} | "
-                     f"{scored['fscore_visible']['1mm']:.3f} | {scored['colour_error']:.1f} | "
-                     + ", ".join(f"{stage} {seconds:.1f}" for stage, seconds in stages.items()) + " |")
+        visible, f_score = scored["completeness_visible"]["2mm"], scored["fscore_visible"]["1mm"]
+        cells = [name, cell(accuracy["mean"], 2), cell(accuracy["sigma"], 2), cell(accuracy["p95"], 2),
+                 cell(100 * scored["outlier_fraction"], 2), cell(None if visible is None else 100 * visible, 1),
+                 cell(f_score, 3), cell(scored["colour_error"], 1),
+                 ", ".join(f"{stage} {seconds:.1f}" for stage, seconds in stages.items())]
+        lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)
 
 
@@ -75,10 +81,10 @@ def main():
             mesh = os.path.join(built["build"]["object_folder"], "mesh", "mesh.ply")
             everything[name_of(recording)] = {"model": built, "score": score(arguments, recording, mesh)}
             print(f"{recording} done", file=sys.stderr)
-    print(markdown(everything))
     if arguments.json:
         with open(arguments.json, "w") as text:
             json.dump(everything, text, indent=1)
+    print(markdown(everything))
 
 
 if __name__ == "__main__":

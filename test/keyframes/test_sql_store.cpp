@@ -111,6 +111,30 @@ TEST_P(SqlStore, KeyframesHaveTheNoiseModelOfTheirSession)
   EXPECT_TRUE(store_->keyframe("b", 0).frame.noise_model == rgbd::SensorNoiseModel());
 }
 
+TEST_P(SqlStore, KeyframesAreCorrectedByTheirSessionsCalibration)
+{
+  store_->createSession(makeSession("a"));
+  store_->addKeyframe("a", makeKeyframe(0));
+  const rgbd::Keyframe before = store_->keyframe("a", 0);
+  Session calibrated = store_->session("a");
+  calibrated.calibration.correction.focal_ratio = { 1.01, 0.99 };
+  calibrated.calibration.correction.depth_offset_m = 0.005;
+  store_->updateSession(calibrated);
+  EXPECT_TRUE(store_->session("a").calibration == calibrated.calibration);
+  const rgbd::Keyframe after = store_->keyframe("a", 0);
+  EXPECT_DOUBLE_EQ(after.frame.camera.fx, 1.01 * before.frame.camera.fx);
+  EXPECT_DOUBLE_EQ(after.frame.camera.fy, 0.99 * before.frame.camera.fy);
+  EXPECT_NEAR(cv::norm(after.frame.depth_m, before.frame.depth_m + 0.005, cv::NORM_INF,
+                       before.frame.depth_m == before.frame.depth_m),
+              0, 1e-6);
+  ASSERT_EQ(after.observations.size(), before.observations.size());
+  for (std::size_t i = 0; i < before.observations.size(); ++i)
+  {
+    const float error_m = after.observations[i].depth_m - before.observations[i].depth_m - 0.005F;
+    EXPECT_TRUE(std::isnan(before.observations[i].depth_m) || std::abs(error_m) < 1e-6) << error_m;
+  }
+}
+
 TEST_P(SqlStore, RefusesAnImpossibleCalibration)
 {
   Session session = makeSession("a");

@@ -79,14 +79,22 @@ TEST_F(NoiseModelFile, RefusesWhatItDoesNotKnow)
 
 TEST(CalibrationText, RoundTripIsExact)
 {
-  const SensorCalibration calibration{ unusual(), { 1.0 / 3, -0.1 } };
+  SensorCalibration calibration;
+  calibration.noise_model = unusual();
+  calibration.color_offset_px = { 1.0 / 3, -0.1 };
+  EXPECT_TRUE(calibrationFromText(calibrationText(calibration), "test") == calibration);
+  calibration.correction.focal_ratio = { 1.01, 1.0 / 3 };
+  calibration.correction.principal_shift_px = { -2.5, 0.1 };
+  calibration.correction.depth_ratio = 0.99;
+  calibration.correction.depth_offset_m = -0.0021;
   EXPECT_TRUE(calibrationFromText(calibrationText(calibration), "test") == calibration);
   EXPECT_TRUE(calibrationFromText("{}", "test") == SensorCalibration());
 }
 
 TEST(CalibrationText, RefusesDamage)
 {
-  for (const char* text : { "", "color_offset_px: 1", "color_offset_px: [.nan, 0]", "gain: 2", "noise_model: 3", "{" })
+  for (const char* text : { "", "color_offset_px: 1", "color_offset_px: [.nan, 0]", "gain: 2", "noise_model: 3",
+                            "correction: 1", "correction: {depth_ratio: 1}", "{" })
     EXPECT_THROW(calibrationFromText(text, "test"), base::Error) << text;
 }
 

@@ -1,4 +1,4 @@
-#include "object_modelling/rgbd/sensor_correction.h"
+#include "object_modelling/rgbd/corrected.h"
 
 #include <cmath>
 
@@ -26,6 +26,33 @@ TEST(SensorCorrection, correctsCameraAndDepthAndSharesTheRest)
   EXPECT_FLOAT_EQ(right.depthAt_m(1, 0), 2.039F);
   EXPECT_TRUE(std::isnan(right.depthAt_m(2, 0)));
   EXPECT_FLOAT_EQ(frame.depthAt_m(1, 0), 2);
+}
+
+TEST(SensorCorrection, OneAfterTheOtherIsOne)
+{
+  Keyframe keyframe;
+  keyframe.frame.depth_m = (cv::Mat_<float>(1, 1) << 0.8F);
+  keyframe.frame.camera.fx = keyframe.frame.camera.fy = 500;
+  keyframe.frame.camera.cx = 320;
+  keyframe.observations.push_back({ 3, { 10, 20 }, 0.7F });
+  SensorCorrection first, second;
+  first.focal_ratio = { 1.01, 0.98 };
+  first.principal_shift_px = { 2, -1 };
+  first.depth_ratio = 1.02;
+  first.depth_offset_m = 0.003;
+  second.focal_ratio = { 0.995, 1.002 };
+  second.principal_shift_px = { 0.5, 0.25 };
+  second.depth_ratio = 0.99;
+  second.depth_offset_m = -0.001;
+  const Keyframe stepwise = corrected(corrected(keyframe, first), second);
+  const Keyframe at_once = corrected(keyframe, first.then(second));
+  EXPECT_NEAR(at_once.frame.camera.fx, stepwise.frame.camera.fx, 1e-9);
+  EXPECT_NEAR(at_once.frame.camera.fy, stepwise.frame.camera.fy, 1e-9);
+  EXPECT_NEAR(at_once.frame.camera.cx, stepwise.frame.camera.cx, 1e-9);
+  EXPECT_NEAR(at_once.frame.camera.cy, stepwise.frame.camera.cy, 1e-9);
+  EXPECT_NEAR(at_once.frame.depthAt_m(0, 0), stepwise.frame.depthAt_m(0, 0), 1e-6);
+  EXPECT_NEAR(at_once.observations[0].depth_m, stepwise.observations[0].depth_m, 1e-6);
+  EXPECT_TRUE(first.then({}) == first);
 }
 
 }  // namespace object_modelling::rgbd

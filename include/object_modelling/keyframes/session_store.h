@@ -44,7 +44,7 @@ public:
   /// 0.1 mm (1 mm if any reading is beyond 6.5 m; beyond 65.5 m counts as missing), everything else exactly.
   virtual void addKeyframe(const std::string& session_id, const rgbd::Keyframe& keyframe) = 0;
   virtual std::vector<int> keyframeIds(const std::string& session_id) = 0;  ///< ascending
-  /// Its frame has the noise model of the session.
+  /// Its frame has the noise model of the session, and is corrected by its calibration.
   virtual rgbd::Keyframe keyframe(const std::string& session_id, int keyframe_id) = 0;
   virtual void updatePoses(const std::string& session_id, const std::vector<PoseUpdate>& updates) = 0;
   virtual void updateMasks(const std::string& session_id, const std::vector<MaskUpdate>& updates) = 0;

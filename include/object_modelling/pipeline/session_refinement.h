@@ -19,7 +19,7 @@ enum class RefinementMethod
 
 struct RefinementOptions
 {
-  RefinementMethod method = RefinementMethod::BUNDLE_ADJUSTMENT;
+  RefinementMethod method = RefinementMethod::BOTH;
   refinement::BundleAdjustmentOptions bundle_adjustment;
   refinement::MultiViewIcpOptions multi_view_icp;  ///< after bundle adjustment its start_error_m is AFTER_BUNDLE_M
   std::vector<std::string> violations() const;

@@ -2,8 +2,6 @@
 
 #include <Eigen/Core>
 
-#include "object_modelling/rgbd/frame.h"
-
 namespace object_modelling::rgbd
 {
 /// What a sensor is off by, for all its frames alike. The sigmas are 0 where nothing was estimated; as large as the
@@ -20,9 +18,9 @@ struct SensorCorrection
   double depth_offset_sigma_m = 0;
 
   bool isIdentity() const;
+  /// Of a sensor whose frames, corrected by this, turned out to be off by `rest` too; sigmas are those of `rest`.
+  SensorCorrection then(const SensorCorrection& rest) const;
+  bool operator==(const SensorCorrection& other) const;
 };
-
-/// The frame as a right sensor had given it. Shares the images that stay as they are.
-Frame corrected(const Frame& frame, const SensorCorrection& correction);
 
 }  // namespace object_modelling::rgbd

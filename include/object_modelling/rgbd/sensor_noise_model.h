@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "object_modelling/rgbd/sensor_correction.h"
+
 namespace object_modelling::rgbd
 {
 /// Noise of a depth sensor. The defaults are a Kinect's after Nguyen, Izadi, Lovell: Modeling Kinect Sensor Noise for
@@ -62,10 +64,12 @@ struct SensorCalibration
   SensorNoiseModel noise_model;
   /// Pixel of a point in the colour image minus its pixel in the depth image; zero where not known.
   Eigen::Vector2d color_offset_px = Eigen::Vector2d::Zero();
+  SensorCorrection correction;  ///< of frames as they came; identity where not known
 
   bool operator==(const SensorCalibration& other) const
   {
-    return noise_model == other.noise_model && color_offset_px == other.color_offset_px;
+    return noise_model == other.noise_model && color_offset_px == other.color_offset_px &&
+           correction == other.correction;
   }
 };
 

@@ -11,7 +11,7 @@ namespace object_modelling::nodes
 {
 struct RefinerOptions
 {
-  std::string method = "bundle_adjustment";  ///< bundle_adjustment, multi_view_icp or both, where a goal names none
+  std::string method = "both";  ///< bundle_adjustment, multi_view_icp or both, where a goal names none
   pipeline::RefinementOptions refinement;
   ros_bridge::RemoteSessionStoreOptions store;
 

@@ -204,6 +204,7 @@ class KeyframeStoreTest(unittest.TestCase):
         self.succeed(store.create_session(Session(session_id="s")))
         store.process.kill()
         with sqlite3.connect(store.path) as database:
+            version = database.execute("SELECT version FROM store_schema").fetchone()[0]
             database.execute("UPDATE store_schema SET version = 97")
         database.close()
         store.state = None
@@ -214,7 +215,7 @@ class KeyframeStoreTest(unittest.TestCase):
         self.assertTrue(store.process.running())
         # Once the file can be used again, so can the node.
         with sqlite3.connect(store.path) as database:
-            database.execute("UPDATE store_schema SET version = 1")
+            database.execute("UPDATE store_schema SET version = ?", (version,))
         database.close()
         self.assertEqual(self.succeed(store.list_sessions()).sessions[0].session_id, "s")
 
