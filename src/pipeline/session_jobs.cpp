@@ -49,6 +49,7 @@ refinement::BundleAdjustmentResult refineSession(keyframes::SessionStore& store,
                                                  refinement::BundleAdjustmentOptions options, base::JobControl& control)
 {
   RefinementOptions by_bundle;
+  by_bundle.method = RefinementMethod::BUNDLE_ADJUSTMENT;
   by_bundle.bundle_adjustment = options;
   const SessionRefinement refined = refineSessionBy(store, session_id, by_bundle, control);
   if (refined.bundle_adjustment)
