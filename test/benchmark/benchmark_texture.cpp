@@ -90,7 +90,7 @@ Model makeModel(const std::string& recording, const Arguments& arguments)
   fusion_options.resolution_m = surface_options.resolution_m = arguments.resolution_mm / 1000;
   const fusion::CloudFusionResult fused = fusion::fuse(model.keyframes, fusion_options, control);
   throwUnlessOk(fused.status);
-  surface::SurfaceResult surface = surface::reconstructSurface(fused.cloud, surface_options, control);
+  surface::SurfaceResult surface = surface::reconstructSurface(fused.cloud, std::nullopt, surface_options, control);
   throwUnlessOk(surface.status);
   model.mesh = std::move(surface.mesh);
   return model;
