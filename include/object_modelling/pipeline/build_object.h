@@ -35,9 +35,9 @@ struct BuildReport
   std::map<std::string, double> stage_s;  ///< seconds by stage
 };
 
-/// Fused cloud, mesh, texture, views and report of one object from its placed sessions, written into the database in one
-/// atomic step; sets object_id and T_model_session of the sessions in the store. Refuses with the reason: no session, no
-/// keyframes, no masks, an existing object in another frame (unless `replace`).
+/// Fused cloud, mesh, texture, views and report of one object from its placed sessions, written into the database in
+/// one atomic step; sets object_id and T_model_session of the sessions in the store. Refuses with the reason: no
+/// session, no keyframes, no masks, an existing object in another frame (unless `replace`).
 BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase& database,
                         const std::string& object_id, const std::string& name,
                         const std::vector<alignment::SessionPlacement>& placements, const BuildOptions& options,
