@@ -47,6 +47,19 @@ Eigen::Isometry3d isometryFrom(const Eigen::Quaterniond& R, const Eigen::Vector3
   return T;
 }
 
+Matrix6d adjoint(const Eigen::Isometry3d& T_a_b)
+{
+  const Eigen::Matrix3d R = T_a_b.linear();
+  const Eigen::Vector3d t = T_a_b.translation();
+  Eigen::Matrix3d cross;
+  cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
+  Matrix6d result = Matrix6d::Zero();
+  result.topLeftCorner<3, 3>() = R;
+  result.topRightCorner<3, 3>() = cross * R;
+  result.bottomRightCorner<3, 3>() = R;
+  return result;
+}
+
 double rotationAngle_rad(const Eigen::Isometry3d& T)
 {
   const Eigen::Quaterniond q(T.linear());

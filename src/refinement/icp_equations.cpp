@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "so3.h"
-
 namespace object_modelling::refinement
 {
 namespace
@@ -167,16 +165,6 @@ IcpError icpError(const IcpMatches& matches, const Eigen::Isometry3d& T_a_b, con
   }
   error.count = static_cast<int>(matches.surface.size());
   return error;
-}
-
-geometry::Matrix6d adjoint(const Eigen::Isometry3d& T_a_b)
-{
-  geometry::Matrix6d result = geometry::Matrix6d::Zero();
-  const Eigen::Matrix3d R = T_a_b.linear();
-  result.topLeftCorner<3, 3>() = R;
-  result.topRightCorner<3, 3>() = crossMatrix(T_a_b.translation()) * R;
-  result.bottomRightCorner<3, 3>() = R;
-  return result;
 }
 
 }  // namespace object_modelling::refinement

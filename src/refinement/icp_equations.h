@@ -44,7 +44,4 @@ struct IcpError
 IcpError icpError(const IcpMatches& matches, const Eigen::Isometry3d& T_a_b, const Eigen::Isometry3d& T_a_b_weights,
                   const IcpLoss& loss);
 
-/// A motion on the left of T_b_x seen as one on the left of T_a_x: xi_a = adjoint(T_a_b) xi_b.
-geometry::Matrix6d adjoint(const Eigen::Isometry3d& T_a_b);
-
 }  // namespace object_modelling::refinement

@@ -110,7 +110,7 @@ std::vector<PairEquations> IcpProblem::equations(const std::vector<Eigen::Isomet
       {
         directed[i] = icpEquations(views_[a], matches_[i], T_session_camera[a].inverse() * T_session_camera[b], loss_);
         // A motion of b in the session frame moves b's points in a's camera by the same, seen from there.
-        const geometry::Matrix6d to_camera = adjoint(T_session_camera[a].inverse());
+        const geometry::Matrix6d to_camera = geometry::adjoint(T_session_camera[a].inverse());
         directed[i].A = to_camera.transpose() * directed[i].A * to_camera;
         directed[i].g = to_camera.transpose() * directed[i].g;
       });
@@ -130,7 +130,7 @@ std::vector<geometry::Matrix6d> IcpProblem::noise(const std::vector<Eigen::Isome
   forDirectedPairs(
       [&](int i, int a, int b)
       {
-        const geometry::Matrix6d to_camera = adjoint(T_session_camera[a].inverse());
+        const geometry::Matrix6d to_camera = geometry::adjoint(T_session_camera[a].inverse());
         directed[i] = to_camera.transpose() *
                       icpNoise(views_[a], matches_[i], T_session_camera[a].inverse() * T_session_camera[b], loss_) *
                       to_camera;

@@ -86,7 +86,7 @@ std::vector<FreeDirection> unresisted(int keyframe_id, const geometry::Matrix6d&
 std::vector<FreeDirection> unknown(int keyframe_id, const geometry::Matrix6d& covariance, const Eigen::Vector3d& centre)
 {
   // As displacements: of the centre, and of points LEVER_M from it.
-  geometry::Matrix6d to_centre = adjoint(Eigen::Isometry3d(Eigen::Translation3d(-centre)));
+  geometry::Matrix6d to_centre = geometry::adjoint(Eigen::Isometry3d(Eigen::Translation3d(-centre)));
   to_centre.bottomRows<3>() *= LEVER_M;
   const Eigen::SelfAdjointEigenSolver<geometry::Matrix6d> solver(to_centre * covariance * to_centre.transpose());
   std::vector<FreeDirection> directions;

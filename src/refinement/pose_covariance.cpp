@@ -6,7 +6,6 @@
 
 #include "cost_functions.h"
 #include "sensor_blocks.h"
-#include "so3.h"
 
 namespace object_modelling::refinement
 {
@@ -51,11 +50,7 @@ void accumulate(const Cost& cost, const double* landmark, const std::array<const
 /// Motion on the left of T_camera_session -> motion on the left of T_session_camera (adjoint; the sign cancels).
 geometry::Matrix6d inSession(const geometry::Matrix6d& covariance_camera, const Eigen::Isometry3d& T_session_camera)
 {
-  const Eigen::Matrix3d R = T_session_camera.linear();
-  geometry::Matrix6d adjoint = geometry::Matrix6d::Zero();
-  adjoint.topLeftCorner<3, 3>() = R;
-  adjoint.topRightCorner<3, 3>() = crossMatrix(T_session_camera.translation()) * R;
-  adjoint.bottomRightCorner<3, 3>() = R;
+  const geometry::Matrix6d adjoint = geometry::adjoint(T_session_camera);
   return adjoint * covariance_camera * adjoint.transpose();
 }
 

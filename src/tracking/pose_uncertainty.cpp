@@ -29,14 +29,7 @@ geometry::Matrix6d isotropic(double translation_sigma_m, double rotation_sigma_r
 /// Of a motion given in frame b, as one in frame a.
 geometry::Matrix6d moved(const geometry::Matrix6d& covariance, const Eigen::Isometry3d& T_a_b)
 {
-  const Eigen::Matrix3d R = T_a_b.linear();
-  const Eigen::Vector3d t = T_a_b.translation();
-  Eigen::Matrix3d t_cross;
-  t_cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
-  geometry::Matrix6d adjoint = geometry::Matrix6d::Zero();
-  adjoint.topLeftCorner<3, 3>() = R;
-  adjoint.topRightCorner<3, 3>() = t_cross * R;
-  adjoint.bottomRightCorner<3, 3>() = R;
+  const geometry::Matrix6d adjoint = geometry::adjoint(T_a_b);
   return adjoint * covariance * adjoint.transpose();
 }
 }  // namespace

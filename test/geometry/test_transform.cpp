@@ -79,6 +79,20 @@ TEST(Transform, NormalisedRemovesDrift)
   EXPECT_TRANSFORM_NEAR(fixed, someTransform(), 1e-12, 1e-3);
 }
 
+TEST(Transform, AdjointTakesSmallMotionsToAnotherFrame)
+{
+  Vector6d pose;
+  pose << 0.4, -0.3, 0.9, 0.5, -1.1, 0.7;
+  const Eigen::Isometry3d T_a_b = isometryFromVector(pose);
+  for (int i = 0; i < 6; ++i)
+  {
+    const Vector6d motion_b = 1e-6 * Vector6d::Unit(i);
+    const Vector6d motion_a = vectorFromIsometry(T_a_b * isometryFromVector(motion_b) * T_a_b.inverse());
+    EXPECT_LT((motion_a - adjoint(T_a_b) * motion_b).norm(), 1e-10) << i;
+  }
+  EXPECT_TRUE((adjoint(T_a_b) * adjoint(T_a_b.inverse())).isIdentity(1e-12));
+}
+
 TEST(RigidTransformFromPoints, RecoversBothDirections)
 {
   const Eigen::Isometry3d T_a_b = someTransform();

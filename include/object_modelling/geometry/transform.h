@@ -16,6 +16,10 @@ Vector6d vectorFromIsometry(const Eigen::Isometry3d& T);
 
 Eigen::Isometry3d isometryFrom(const Eigen::Quaterniond& R, const Eigen::Vector3d& t);
 
+/// A small motion applied on the left of T_b_x, seen as one on the left of T_a_x: xi_a = adjoint(T_a_b) xi_b. Its
+/// covariance goes along: C_a = adjoint C_b adjoint^T.
+Matrix6d adjoint(const Eigen::Isometry3d& T_a_b);
+
 /// Angle of a rotation in [0, pi].
 double rotationAngle_rad(const Eigen::Isometry3d& T);
 
