@@ -161,6 +161,7 @@ base::Result<Frame> FrameBuilder::build(const RawFrame& raw)
   frame.camera.distortion.clear();
   frame.noise_model = options_.noise_model;
   frame.depth_m = depthInMetres(images.depth, raw.depth_unit_m);
+  takeBiasOff(&frame.depth_m);
   const std::size_t count =
       clip(static_cast<float>(options_.min_depth_m), static_cast<float>(options_.max_depth_m), &frame.depth_m);
   const double ratio = static_cast<double>(count) / static_cast<double>(frame.depth_m.total());
@@ -171,7 +172,6 @@ base::Result<Frame> FrameBuilder::build(const RawFrame& raw)
                              std::to_string(options_.max_depth_m) + " m: is the camera covered or too close?");
     return result;
   }
-  takeBiasOff(&frame.depth_m);
   if (images.color.channels() == 3)
   {
     frame.color_bgr = images.color;
