@@ -19,7 +19,7 @@ namespace
 constexpr double MIN_OVERLAP_RATIO = 0.4;
 constexpr double MAX_VIEW_ANGLE_RAD = 0.7;
 constexpr int MAX_PARTNERS = 4;
-constexpr double OFFSET_STEP_PX = 0.5;  // beyond what interpolation and noise do
+constexpr double OFFSET_STEP_PX = 1;  // beyond what interpolation and noise do
 constexpr int BATCH = 16;
 constexpr int DEPTH_STEP_PX = 16;
 constexpr double PATCH_RATIO = 0.3;    // of the depth: half the field of view
@@ -101,13 +101,24 @@ std::vector<tracking::SurfaceView> viewsOf(const std::vector<rgbd::Keyframe>& ke
   return views;
 }
 
-/// The link with images shifted a little further, along x and along y, tells how it depends on the offset.
-void findByColorOffset(const std::array<std::vector<tracking::SurfaceView>, 2>& shifted, SurfaceLink* link)
+/// Views with the colour images shifted to both sides along one axis.
+struct ShiftedViews
+{
+  std::vector<tracking::SurfaceView> back, forth;
+};
+
+/// Links of images shifted a little to both sides, along x and along y, tell how the link depends on the offset. (Both
+/// sides, since interpolation does the same to either.)
+void findByColorOffset(const std::array<ShiftedViews, 2>& shifted, SurfaceLink* link)
 {
   for (int axis = 0; axis < 2; ++axis)
-    if (const std::optional<SurfaceLink> moved = linkPair(shifted[axis], { link->a, link->b }, link->T_a_b))
+  {
+    const std::optional<SurfaceLink> back = linkPair(shifted[axis].back, { link->a, link->b }, link->T_a_b);
+    const std::optional<SurfaceLink> forth = linkPair(shifted[axis].forth, { link->a, link->b }, link->T_a_b);
+    if (back && forth)
       link->by_color_offset.col(axis) =
-          geometry::vectorFromIsometry(moved->T_a_b * link->T_a_b.inverse()) / OFFSET_STEP_PX;
+          geometry::vectorFromIsometry(forth->T_a_b * back->T_a_b.inverse()) / (2 * OFFSET_STEP_PX);
+  }
 }
 }  // namespace
 
@@ -120,10 +131,13 @@ std::vector<SurfaceLink> linkSurfaces(const std::vector<rgbd::Keyframe>& keyfram
   if (!std::all_of(keyframes.begin(), keyframes.end(), usable))
     return {};
   const std::vector<tracking::SurfaceView> views = viewsOf(keyframes, color_offset_px, object_only);
-  std::array<std::vector<tracking::SurfaceView>, 2> shifted;
-  if (find_by_color_offset)
-    for (int axis = 0; axis < 2; ++axis)
-      shifted[axis] = viewsOf(keyframes, color_offset_px + OFFSET_STEP_PX * Eigen::Vector2d::Unit(axis), object_only);
+  std::array<ShiftedViews, 2> shifted;
+  for (int axis = 0; axis < 2 && find_by_color_offset; ++axis)
+  {
+    const Eigen::Vector2d step_px = OFFSET_STEP_PX * Eigen::Vector2d::Unit(axis);
+    shifted[axis] = { viewsOf(keyframes, color_offset_px - step_px, object_only),
+                      viewsOf(keyframes, color_offset_px + step_px, object_only) };
+  }
   const std::vector<IndexPair> pairs = overlappingPairs(keyframes, object_only);
   std::vector<std::optional<SurfaceLink>> linked(pairs.size());
   const int count = static_cast<int>(pairs.size());
