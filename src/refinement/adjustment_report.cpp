@@ -43,7 +43,9 @@ void reportResiduals(const std::vector<rgbd::Keyframe>& keyframes, const BundleS
     const double weight = 1 / (sight.sigma_px * sight.sigma_px);
     pixel_before[k].add(error_before.pixel_px, weight);
     pixel_after[k].add(error_after.pixel_px, weight);
-    if (!(sight.depth_m > 0))
+    const double depth_gate_m =
+        OUTLIER_SIGMAS * keyframes[k].frame.noise_model.axialSigma_m(std::max(sight.depth_m, 0.0), 0);
+    if (!(sight.depth_m > 0) || !(std::abs(error_after.depth_m) <= depth_gate_m))
       continue;
     depth_before[k].add(error_before.depth_m, weight);
     depth_after[k].add(error_after.depth_m, weight);

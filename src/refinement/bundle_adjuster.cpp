@@ -17,8 +17,6 @@ namespace
 constexpr int ENOUGH_SHARED = 40;
 // Rounds of adjusting, checking the links, dropping those that contradict.
 constexpr int MAX_ROUNDS = 4;
-// A residual beyond is an outlier, and left out of the RMSE (before and after alike).
-constexpr double OUTLIER_SIGMAS = 6.0;
 constexpr int COARSE_ITERATIONS = 12;
 // Share of the sights by whose error the start is judged, and how many times that a landmark may be off.
 constexpr double TYPICAL_SHARE = 0.8;

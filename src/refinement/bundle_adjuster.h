@@ -10,6 +10,8 @@ namespace object_modelling::refinement
 {
 /// Fewer common landmarks do not hold two keyframes together.
 constexpr int MIN_SHARED = 6;
+/// A residual beyond is an outlier, and left out of the RMSE (before and after alike).
+constexpr double OUTLIER_SIGMAS = 6.0;
 
 /// What one set of keyframes and landmarks was adjusted from, and to.
 struct Adjustment
