@@ -65,6 +65,7 @@ SessionRefinement refineSessionBy(keyframes::SessionStore& store, const std::str
   const keyframes::Session session = store.session(session_id);
   options.bundle_adjustment.object_only |= session.reference_is_object;
   options.multi_view_icp.object_only |= session.reference_is_object;
+  options.multi_view_icp.color_offset_px = session.calibration.color_offset_px;
   std::vector<rgbd::Keyframe> keyframes = loadReported(store, session_id, control);
   SessionRefinement refined;
   if (keyframes.empty())
