@@ -14,7 +14,7 @@ namespace object_modelling::refinement
 enum class IcpAssociation
 {
   PROJECTIVE,  ///< along the viewing ray, searched round it while poses are poor
-  NEAREST      ///< nearest point (k-d tree); as exact, and takes longer
+  NEAREST      ///< nearest point (k-d tree); slower, and less exact (docs/refinement.md)
 };
 
 struct MultiViewIcpOptions
