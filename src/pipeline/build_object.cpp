@@ -6,6 +6,7 @@
 #include "model_frame.h"
 #include "object_modelling/base/options.h"
 #include "object_modelling/pipeline/report_maker.h"
+#include "object_modelling/surface/mesh_renderer.h"
 #include "object_modelling/surface/textured_renderer.h"
 #include "quality_figures.h"
 #include "quality_report.h"
@@ -110,6 +111,26 @@ Eigen::Vector2d meanColorOffset_px(const std::vector<keyframes::Session>& sessio
   for (const keyframes::Session& session : sessions)
     sum_px += session.calibration.color_offset_px;
   return sum_px / static_cast<double>(sessions.size());
+}
+
+/// A model is worth having without its texture: what is wrong becomes the result's status.
+surface::TextureResult textured(const geometry::TriangleMesh& mesh, const std::vector<rgbd::Keyframe>& views,
+                                const surface::TextureOptions& options, base::JobControl& control)
+{
+  try
+  {
+    return surface::textureMesh(mesh, views, options, control);
+  }
+  catch (const base::Cancelled&)
+  {
+    throw;
+  }
+  catch (const base::Error& error)
+  {
+    surface::TextureResult none;
+    none.status = { error.code(), std::string("no texture: ") + error.what() };
+    return none;
+  }
 }
 
 /// What the object of a single session stood on. Of several, each saw what another one stood on.
@@ -239,10 +260,7 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
 
   for (rgbd::Keyframe& view : views.keyframes)
     view.T_session_camera = *T_model_reference * view.T_session_camera;
-  surface::TextureResult texture = surface::textureMesh(surface.mesh, views.keyframes, texture_options, control);
-  report.status = texture.status;
-  if (!report.status.ok())
-    return report;
+  surface::TextureResult texture = textured(surface.mesh, views.keyframes, texture_options, control);
   timer.finish("texture");
 
   database::ObjectModel model;
@@ -257,10 +275,12 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
   model.cloud = std::move(fused.cloud);
   model.mesh = std::move(surface.mesh);
   model.textured = std::move(texture.textured);
-  model.preview_bgr = surface::renderFourSides(model.textured);
+  model.preview_bgr =
+      texture.status.ok() ? surface::renderFourSides(model.textured) : surface::renderFourSides(model.mesh);
   model.views = std::move(views.keyframes);
 
-  model.turntable_bgr = surface::renderTurntable(model.textured, TURNTABLE_STEPS);
+  model.turntable_bgr = texture.status.ok() ? surface::renderTurntable(model.textured, TURNTABLE_STEPS)
+                                            : surface::renderTurntable(model.mesh, TURNTABLE_STEPS);
   model.quality_yaml = qualityYaml(model, views.sessions, views.origins, options, report.stage_s);
   timer.finish("describe");
 
@@ -273,8 +293,10 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
                                           report.status = reportStatus(folder, object_id, database.root(), control);
                                           timer.finish("report");
                                         });
-  if (!surface.warning.empty())
-    report.status.message += (report.status.message.empty() ? "" : "; ") + surface.warning;
+  // What went wrong after the mesh does not cost the model, but whoever built it is told.
+  for (const std::string& warning : { surface.warning, texture.status.message })
+    if (!warning.empty())
+      report.status.message += (report.status.message.empty() ? "" : "; ") + warning;
   report.preview_path = report.object_folder + "/preview.png";
   report.size_m = model.box_model.size_m;
   report.diameter_m = model.diameter_m;

@@ -94,6 +94,22 @@ TEST_F(BuildObject, WritesTheObjectInItsOwnFrame)
   EXPECT_GT(session.T_model_session->linear()(2, 2), 1 - 1e-9);
 }
 
+TEST_F(BuildObject, ModelIsWrittenThoughItsTextureCannotBeMade)
+{
+  BuildOptions options = coarse();
+  options.texture.max_atlas_px = 64;
+  options.texture.padding_px = 64;
+  const BuildReport report =
+      buildObject(*store_, database_, "carton", "", { { "box", Eigen::Isometry3d::Identity() } }, options, control_);
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  EXPECT_NE(report.status.message.find("no texture"), std::string::npos) << report.status.message;
+  EXPECT_NE(report.status.message.find("max_atlas_px"), std::string::npos) << report.status.message;
+  EXPECT_TRUE(std::filesystem::exists(report.preview_path));
+  EXPECT_TRUE(std::filesystem::exists(report.object_folder + "/mesh/mesh.ply"));
+  EXPECT_FALSE(std::filesystem::exists(report.object_folder + "/mesh/textured.obj"));
+  EXPECT_TRUE(database_.check().empty());
+}
+
 TEST_F(BuildObject, MakesTheSameObjectOfTheSameInput)
 {
   ASSERT_TRUE(build({ "box" }).status.ok());

@@ -1,4 +1,5 @@
 """Folders of objects as the database has them, as far as the report reads them."""
+import json
 import os
 import struct
 
@@ -32,16 +33,39 @@ def box_mesh(steps=6):
             np.array(triangles, np.uint32))
 
 
-def write_ply(path, vertices, normals, colours, triangles):
-    with open(path, "wb") as file:
-        file.write(("ply\nformat binary_little_endian 1.0\ncomment test\nelement vertex %d\nproperty float x\n"
-                    "property float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
-                    "property uchar blue\nproperty float nx\nproperty float ny\nproperty float nz\nelement face %d\n"
-                    "property list uchar int vertex_indices\nend_header\n" % (len(vertices), len(triangles))).encode())
-        for p, n, c in zip(vertices, normals, colours):
-            file.write(struct.pack("<3f3B3f", *p, *c, *n))
-        for t in triangles:
-            file.write(struct.pack("<B3i", 3, *t))
+def glb(vertices, normals, colours, triangles):
+    """Bytes of a binary glTF 2 with vertex colours."""
+    chunks, views, accessors, attributes = [], [], [], {}
+
+    def add(values, component_type, shape, target, **extra):
+        data = np.ascontiguousarray(values).tobytes()
+        views.append({"buffer": 0, "byteOffset": sum(map(len, chunks)), "byteLength": len(data), "target": target})
+        chunks.append(data + b"\0" * (-len(data) % 4))
+        accessors.append(dict({"bufferView": len(views) - 1, "componentType": component_type, "count": len(values),
+                               "type": shape}, **extra))
+        return len(accessors) - 1
+
+    attributes["POSITION"] = add(vertices, 5126, "VEC3", 34962, min=vertices.min(0).tolist(),
+                                 max=vertices.max(0).tolist())
+    if normals is not None:
+        attributes["NORMAL"] = add(normals, 5126, "VEC3", 34962)
+    if colours is not None:
+        # glTF's vertex colours are linear, pictures are not.
+        linear = np.round(65535 * (colours / 255.0) ** 2.2)
+        attributes["COLOR_0"] = add(np.column_stack([linear, np.full(len(linear), 65535)]).astype("<u2"), 5123,
+                                    "VEC4", 34962, normalized=True)
+    indices = add(triangles.reshape(-1).astype("<u4"), 5125, "SCALAR", 34963)
+    binary = b"".join(chunks)
+    description = {
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}],
+        "materials": [{"doubleSided": True, "pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 1}}],
+        "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": len(binary)}]}
+    text = json.dumps(description, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    total = 12 + 8 + len(text) + 8 + len(binary)
+    return (struct.pack("<4sII", b"glTF", 2, total) + struct.pack("<I4s", len(text), b"JSON") + text +
+            struct.pack("<I4s", len(binary), b"BIN\0") + binary)
 
 
 def residual(keyframe_id, after_px=0.2, after_m=0.001, count=100):
@@ -77,7 +101,8 @@ def quality():
 
 def make(folder, name="A box", figures=None):
     os.makedirs(os.path.join(folder, "mesh"))
-    write_ply(os.path.join(folder, "mesh", "mesh.ply"), *box_mesh())
+    with open(os.path.join(folder, "mesh", "textured.glb"), "wb") as file:
+        file.write(glb(*box_mesh()))
     cv2.imwrite(os.path.join(folder, "turntable.png"), np.full((40, 320, 3), 200, np.uint8))
     for file, content in (("object.yaml", {"id": "box", "name": name}), ("quality.yaml", figures or quality())):
         with open(os.path.join(folder, file), "w") as text:

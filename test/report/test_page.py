@@ -82,13 +82,13 @@ class PageTest(unittest.TestCase):
         data = ObjectData(self.folder)
         self.assertEqual([data.count(colour) for colour in ("green", "amber", "red", "grey")], [9, 1, 2, 1])
 
-    def test_a_textured_model_goes_first(self):
+    def test_a_model_without_texture_has_no_viewer(self):
         object_folder.make(self.folder)
-        with open(os.path.join(self.folder, "mesh", "textured.glb"), "wb") as file:
-            file.write(b"glTF of another")
+        os.remove(os.path.join(self.folder, "mesh", "textured.glb"))
         text = page.render(ObjectData(self.folder))
-        self.assertIn("Z2xURiBvZiBhbm90aGVy", text)
-        self.assertIn("textured mesh", text)
+        self.assertIn("No 3-D view", text)
+        self.assertNotIn('id="viewer"', text)
+        self.assertEqual([tag for tag, _ in Tags(text).tags if tag == "script"], [])
 
     def test_nothing_refined_and_no_pictures(self):
         figures = object_folder.quality()

@@ -10,7 +10,6 @@ import jinja2
 from markupsafe import Markup
 
 from object_modelling.report import object_data, plots
-from object_modelling.report.mesh_glb import glb_of_ply
 from object_modelling.report.object_data import ObjectData, ReportError
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -54,11 +53,9 @@ def _tiles(path):
 
 
 def _model_glb(data):
-    """(bytes, what it shows): the textured model where there is one."""
-    textured = data.path("mesh", "textured.glb")
-    if os.path.isfile(textured):
-        return _read(textured), "textured mesh"
-    return glb_of_ply(data.path("mesh", "mesh.ply")), "mesh with vertex colours"
+    """In base64; None where the model has no texture."""
+    path = data.path("mesh", "textured.glb")
+    return base64.b64encode(_read(path)).decode() if os.path.isfile(path) else None
 
 
 def _safe_svg(svg):
@@ -71,7 +68,6 @@ def render(data):
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True,
                                      undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True)
     quality = data.quality
-    model, model_kind = _model_glb(data)
     cameras = [{"position": keyframe.position_m, "colour": plots.COLOURS[keyframe.light]}
                for keyframe in data.keyframes if keyframe.position_m is not None]
     turntable = data.path("turntable.png")
@@ -80,7 +76,7 @@ def render(data):
             data=data, quality=quality, limits=object_data, colours=plots.COLOURS, cameras=cameras,
             turntable=_data_uri(turntable) if os.path.isfile(turntable) else None,
             turntable_steps=_tiles(turntable) if os.path.isfile(turntable) else 0,
-            glb=base64.b64encode(model).decode(), model_kind=model_kind,
+            glb=_model_glb(data),
             library=Markup(library_scripts()), viewer=Markup(_read(os.path.join(HERE, "viewer.js"), "r")),
             plots={"path": _safe_svg(plots.camera_path(data.keyframes, quality["figures"]["size_m"])),
                    "residuals": _safe_svg(plots.residuals(data.keyframes)),
