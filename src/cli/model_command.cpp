@@ -25,6 +25,8 @@ struct Arguments
   std::string name;
   std::vector<double> seed_point_m;
   double resolution_mm = 2;
+  bool watertight = false;
+  std::size_t max_triangles = 0;
   bool replace = false;
   RecordArguments record;
 };
@@ -92,6 +94,8 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
   options.replace = arguments.replace;
   options.fusion.resolution_m = arguments.resolution_mm / 1000;
   options.surface.resolution_m = arguments.resolution_mm / 1000;
+  options.surface.watertight = arguments.watertight;
+  options.surface.max_triangles = arguments.max_triangles;
   const pipeline::BuildReport built =
       pipeline::buildObject(store, database, arguments.object_id, arguments.name, aligned.placements, options, control);
   output.text += toText(built);
@@ -121,6 +125,9 @@ void addModelCommand(CLI::App& app, Command* chosen)
   command->add_option("--resolution", arguments->resolution_mm, "Spacing of model points in mm")
       ->check(CLI::Range(0.2, 50.0))
       ->capture_default_str();
+  command->add_flag("--watertight", arguments->watertight, "Close the mesh; what no camera saw is marked");
+  command->add_option("--max-triangles", arguments->max_triangles,
+                      "Budget of triangles of the mesh; without it the resolution decides");
   command->add_flag("--replace", arguments->replace,
                     "Replace an object of this name that was built from other sessions; its frame changes");
   addRecordOptions(*command, &arguments->record);

@@ -45,6 +45,8 @@ std::string defectOf(const geometry::TriangleMesh& mesh)
     return "it has not as many normals as vertices";
   if (!mesh.colors.empty() && mesh.colors.size() != mesh.vertices.size())
     return "it has not as many colours as vertices";
+  if (!mesh.seen.empty() && mesh.seen.size() != mesh.vertices.size())
+    return "it has not as many marks of what was seen as vertices";
   for (const Eigen::Vector3f& vertex : mesh.vertices)
   {
     if (!vertex.allFinite())

@@ -48,11 +48,23 @@ void keepFields(bool normals, bool colors, pcl::PCLPointCloud2* cloud)
   cloud->fields.erase(std::remove_if(cloud->fields.begin(), cloud->fields.end(), unwanted), cloud->fields.end());
 }
 
+/// What no camera saw is transparent: a property of its own is none that the library would write.
+void makeTransparent(pcl::PCLPointCloud2* cloud)
+{
+  for (pcl::PCLPointField& field : cloud->fields)
+    if (field.name == "rgb")
+    {
+      field.name = "rgba";
+      field.datatype = pcl::PCLPointField::UINT32;
+    }
+}
+
 }  // namespace
 
 void writePly(const std::string& path, const geometry::TriangleMesh& mesh)
 {
   const bool normals = !mesh.normals.empty(), colors = !mesh.colors.empty();
+  const bool marked = colors && !mesh.seen.empty();
   pcl::PointCloud<Point> points;
   points.resize(mesh.vertices.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
@@ -65,17 +77,20 @@ void writePly(const std::string& path, const geometry::TriangleMesh& mesh)
       points[i].r = mesh.colors[i][0];
       points[i].g = mesh.colors[i][1];
       points[i].b = mesh.colors[i][2];
+      points[i].a = marked && mesh.seen[i] == 0 ? 0 : 255;
     }
   }
   pcl::PolygonMesh polygons;
   pcl::toPCLPointCloud2(points, polygons.cloud);
   keepFields(normals, colors, &polygons.cloud);
+  if (marked)
+    makeTransparent(&polygons.cloud);
   polygons.polygons.resize(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     polygons.polygons[i].vertices.assign(mesh.triangles[i].begin(), mesh.triangles[i].end());
 
   // The library does not look at the state of its stream: a full disk shows in the size of the file only.
-  const std::size_t vertex_bytes = 12 + (normals ? 12 : 0) + (colors ? 3 : 0), triangle_bytes = 13;
+  const std::size_t vertex_bytes = 12 + (normals ? 12 : 0) + (colors ? 3 : 0) + (marked ? 1 : 0), triangle_bytes = 13;
   const std::size_t body_bytes = mesh.vertices.size() * vertex_bytes + mesh.triangles.size() * triangle_bytes;
   std::error_code error;
   if (pcl::io::savePLYFileBinary(path, polygons) != 0 || std::filesystem::file_size(path, error) < body_bytes || error)
@@ -89,7 +104,8 @@ geometry::TriangleMesh readPly(const std::string& path)
     throw base::Error(base::StatusCode::BAD_INPUT, "'" + path + "' is not a PLY file that can be read");
   const bool normals = hasField(polygons.cloud, "normal_x") && hasField(polygons.cloud, "normal_y") &&
                        hasField(polygons.cloud, "normal_z");
-  const bool colors = hasField(polygons.cloud, "rgb");
+  const bool marked = hasField(polygons.cloud, "rgba");
+  const bool colors = marked || hasField(polygons.cloud, "rgb");
   if (!hasField(polygons.cloud, "x") || !hasField(polygons.cloud, "y") || !hasField(polygons.cloud, "z"))
     throw base::Error(base::StatusCode::BAD_INPUT, "'" + path + "': its vertices have no float x, y, z");
 
@@ -111,7 +127,11 @@ geometry::TriangleMesh readPly(const std::string& path)
     pcl::PointCloud<pcl::RGB> cloud;
     pcl::fromPCLPointCloud2(polygons.cloud, cloud);
     for (const auto& color : cloud)
+    {
       mesh.colors.push_back({ color.r, color.g, color.b });
+      if (marked)
+        mesh.seen.push_back(color.a != 0 ? 1 : 0);
+    }
   }
   for (const pcl::Vertices& polygon : polygons.polygons)
   {

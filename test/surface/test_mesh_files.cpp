@@ -175,6 +175,24 @@ TEST_P(MeshFiles, MissingAndDamagedFiles)
 
 INSTANTIATE_TEST_SUITE_P(Formats, MeshFiles, testing::Values(".ply", ".obj", ".PLY"));
 
+TEST(MeshFile, PlyKeepsWhatNoCameraSaw)
+{
+  const test_support::TempDir folder;
+  geometry::TriangleMesh mesh = strip();
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    mesh.seen.push_back(i % 3 == 0 ? 0 : 1);
+  const std::string path = folder.path("closed.ply");
+  writeMesh(path, mesh);
+  const geometry::TriangleMesh read = readMesh(path);
+  EXPECT_EQ(read.seen, mesh.seen);
+  EXPECT_EQ(read.vertices, mesh.vertices);
+  EXPECT_EQ(read.normals, mesh.normals);
+  EXPECT_EQ(read.colors, mesh.colors);
+  EXPECT_EQ(read.triangles, mesh.triangles);
+  mesh.seen.pop_back();
+  EXPECT_EQ(codeOf([&] { writeMesh(path, mesh); }), base::StatusCode::INVALID_ARGUMENT);
+}
+
 TEST(MeshFile, UnknownExtensionsAreRefused)
 {
   const test_support::TempDir folder;
