@@ -13,7 +13,7 @@ namespace object_modelling::surface
 {
 struct SurfaceOptions
 {
-  double resolution_m = 0.002;  ///< edge length aimed at
+  double resolution_m = 0.002;  ///< detail that is kept; edges are about half as long
   double max_support_distance_m =
       0.006;                      ///< surface further than this from any fused point was not seen and is cut off
   bool watertight = false;        ///< keep the surface closed; what was not seen is marked (TriangleMesh::seen)
