@@ -72,15 +72,17 @@ Packing pack(const std::vector<cv::Size>& sizes, int padding_px)
 Atlas packCharts(const std::vector<Chart>& charts, std::size_t triangle_count, double texel_size_m, int padding_px,
                  int max_side_px)
 {
+  // However large the texels, every chart takes two of them each way, and its padding.
+  const double least_side_px = std::sqrt(static_cast<double>(charts.size())) * (2 * padding_px + 2) / FILL;
   Packing packing = pack(chartSizes(charts, texel_size_m), padding_px);
-  for (double side = max_side_px; std::max(packing.size_px.width, packing.size_px.height) > max_side_px;
-       packing = pack(chartSizes(charts, texel_size_m), padding_px))
+  while (std::max(packing.size_px.width, packing.size_px.height) > max_side_px)
   {
-    if (charts.size() * std::pow(2 * padding_px + 2, 2) > FILL * FILL * side * side)
+    if (least_side_px > max_side_px)
       throw base::Error(base::StatusCode::INVALID_ARGUMENT,
                         std::to_string(charts.size()) + " charts do not fit into max_atlas_px = " +
                             std::to_string(max_side_px) + ": raise it or lower padding_px");
     texel_size_m *= GROWTH;
+    packing = pack(chartSizes(charts, texel_size_m), padding_px);
   }
 
   Atlas atlas;

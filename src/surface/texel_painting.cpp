@@ -79,11 +79,13 @@ private:
   const std::vector<Eigen::Vector3f>& vertex_colors_;
 };
 
-/// The triangle that each texel belongs to, -1 for none. Texels on an edge belong to the first of its triangles, those
-/// that touch a chart from outside to that of a neighbour: filtering reads them at the chart's border.
-cv::Mat findOwners(const Atlas& atlas, cv::Mat* inside)
+}  // namespace
+
+TexelOwners findOwners(const Atlas& atlas)
 {
-  cv::Mat owner(atlas.size_px, CV_32SC1, cv::Scalar(-1));
+  TexelOwners owners;
+  cv::Mat& owner = owners.triangle;
+  owner = cv::Mat(atlas.size_px, CV_32SC1, cv::Scalar(-1));
   for (std::size_t t = 0; t < atlas.texels.size(); ++t)
     forEachPixelInside(atlas.texels[t], -ON_EDGE_SHARE, atlas.size_px,
                        [&](int u, int v, const Eigen::Vector3f&)
@@ -98,7 +100,7 @@ cv::Mat findOwners(const Atlas& atlas, cv::Mat* inside)
       if (own < 0)
         own = static_cast<int>(t);
     }
-  *inside = owner >= 0;
+  owners.inside = owner >= 0;
   for (int v = 0; v < owner.rows; ++v)
     for (int u = 0; u < owner.cols; ++u)
     {
@@ -109,13 +111,15 @@ cv::Mat findOwners(const Atlas& atlas, cv::Mat* inside)
           { { 1, 0 }, { -1, 0 }, { 0, 1 }, { 0, -1 }, { 1, 1 }, { -1, 1 }, { 1, -1 }, { -1, -1 } }
         };
         const cv::Point beside(u + AROUND[k][0], v + AROUND[k][1]);
-        if (cv::Rect({ 0, 0 }, owner.size()).contains(beside) && inside->at<std::uint8_t>(beside))
+        if (cv::Rect({ 0, 0 }, owner.size()).contains(beside) && owners.inside.at<std::uint8_t>(beside))
           own = owner.at<int>(beside);
       }
     }
-  return owner;
+  return owners;
 }
 
+namespace
+{
 void dilate(const cv::Mat& inside, int padding_px, cv::Mat* texture_bgr)
 {
   cv::Mat done = inside.clone();
@@ -146,12 +150,12 @@ void dilate(const cv::Mat& inside, int padding_px, cv::Mat* texture_bgr)
 
 }  // namespace
 
-cv::Mat paintAtlas(const Paint& paint, const Atlas& atlas, const std::vector<ViewImage>& images,
-                   const std::vector<Eigen::Vector3f>& vertex_colors, int padding_px)
+cv::Mat paintAtlas(const Paint& paint, const Atlas& atlas, const TexelOwners& owners,
+                   const std::vector<ViewImage>& images, const std::vector<Eigen::Vector3f>& vertex_colors,
+                   int padding_px)
 {
   cv::Mat texture_bgr = cv::Mat::zeros(atlas.size_px, CV_32FC3);
-  cv::Mat inside;
-  const cv::Mat owner = findOwners(atlas, &inside);
+  const cv::Mat& owner = owners.triangle;
   const Blend blend(paint, images, vertex_colors);
 #pragma omp parallel for schedule(dynamic, 8)
   for (int v = 0; v < owner.rows; ++v)
@@ -175,14 +179,14 @@ cv::Mat paintAtlas(const Paint& paint, const Atlas& atlas, const std::vector<Vie
   return texture_bgr;
 }
 
-cv::Mat seenTexels(const Paint& paint, const Atlas& atlas)
+cv::Mat seenTexels(const Paint& paint, const Atlas& atlas, const TexelOwners& owners)
 {
-  cv::Mat inside, seen = cv::Mat::zeros(atlas.size_px, CV_8UC1);
-  const cv::Mat owner = findOwners(atlas, &inside);
+  cv::Mat seen = cv::Mat::zeros(atlas.size_px, CV_8UC1);
+  const cv::Mat& owner = owners.triangle;
   for (int v = 0; v < owner.rows; ++v)
     for (int u = 0; u < owner.cols; ++u)
     {
-      if (!inside.at<std::uint8_t>(v, u))
+      if (!owners.inside.at<std::uint8_t>(v, u))
         continue;
       const int triangle = owner.at<int>(v, u);
       const Eigen::Vector3f shares = sharesAt(atlas.texels[triangle], { static_cast<float>(u), static_cast<float>(v) });

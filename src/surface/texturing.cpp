@@ -197,9 +197,10 @@ TextureResult textureMesh(const geometry::TriangleMesh& input, const std::vector
   std::vector<ViewImage> images(views.size());
   for (std::size_t k = 0; k < views.size(); ++k)
     images[k] = correctedImage(views[k], gains[k]);
-  const cv::Mat texture_bgr = paintAtlas(paint, atlas, images, colors, options.padding_px);
+  const TexelOwners owners = findOwners(atlas);
+  const cv::Mat texture_bgr = paintAtlas(paint, atlas, owners, images, colors, options.padding_px);
   texture_bgr.convertTo(result.textured.texture_bgr, CV_8UC3);
-  result.textured.seen = seenTexels(paint, atlas);
+  result.textured.seen = seenTexels(paint, atlas, owners);
   measureSeams(paint, atlas, &result);
   result.seen_ratio = seenRatio(mesh, weights);
   result.gains.assign(keyframes.size(), Eigen::Vector3f::Ones());
