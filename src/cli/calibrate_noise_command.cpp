@@ -73,6 +73,7 @@ std::string toText(const calibration::NoiseCalibration& result)
 
 CommandOutput run(const Arguments& arguments, base::JobControl& control)
 {
+  requireOutputFolder(arguments.output);
   std::vector<calibration::MeasuredDistance> distances;
   if (!arguments.distances.empty())
     distances = calibration::readMeasuredDistances(arguments.distances);

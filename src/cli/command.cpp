@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 
 #include "object_modelling/keyframes/session.h"
 #include "object_modelling/rgbd/noise_model_file.h"
 
 namespace object_modelling::cli
 {
-void addRecordOptions(CLI::App& command, RecordArguments* arguments)
+void addTrackingOptions(CLI::App& command, RecordArguments* arguments)
 {
   command
       .add_option_function<std::string>(
@@ -21,8 +22,15 @@ void addRecordOptions(CLI::App& command, RecordArguments* arguments)
       .add_option("--seed", arguments->seed,
                   "Seed of all random choices: the same recording and seed give the same result")
       ->capture_default_str();
-  command.add_option("--noise-model", arguments->noise_model,
-                     "YAML of the sensor's noise and depth bias, from calibrate_noise; without it a Kinect's");
+  command.add_option(
+      "--noise-model", arguments->noise_model,
+      "YAML of the sensor's noise, depth bias and colour offset, from calibrate_noise and calibrate_color_offset; "
+      "without it a Kinect's");
+}
+
+void addRecordOptions(CLI::App& command, RecordArguments* arguments)
+{
+  addTrackingOptions(command, arguments);
   command
       .add_option_function<std::string>(
           "--refinement",
@@ -49,6 +57,14 @@ pipeline::RefinementOptions refinementOptions(const RecordArguments& arguments)
   options.method = arguments.refinement;
   options.bundle_adjustment.seed = arguments.seed;
   return options;
+}
+
+void requireOutputFolder(const std::string& path)
+{
+  const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+  if (!std::filesystem::is_directory(folder) || std::filesystem::is_directory(path))
+    throw base::Error(base::StatusCode::INVALID_ARGUMENT,
+                      "--output " + path + ": must be a file in a folder that exists");
 }
 
 std::string sessionIdFrom(const std::string& recording)

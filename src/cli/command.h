@@ -27,6 +27,7 @@ using Command = std::function<CommandOutput(base::JobControl& control)>;
 void addTrackCommand(CLI::App& app, Command* chosen);
 void addModelCommand(CLI::App& app, Command* chosen);
 void addCalibrateNoiseCommand(CLI::App& app, Command* chosen);
+void addCalibrateColorOffsetCommand(CLI::App& app, Command* chosen);
 void addInfoCommand(CLI::App& app, Command* chosen);
 void addReportCommand(CLI::App& app, Command* chosen);
 void addCompareCommand(CLI::App& app, Command* chosen);
@@ -39,9 +40,13 @@ struct RecordArguments
   std::string noise_model;  ///< path; empty: the default
   pipeline::RefinementMethod refinement = pipeline::RefinementOptions().method;
 };
+void addTrackingOptions(CLI::App& command, RecordArguments* arguments);  ///< all but --refinement
 void addRecordOptions(CLI::App& command, RecordArguments* arguments);
 pipeline::RecordOptions recordOptions(const RecordArguments& arguments);
 pipeline::RefinementOptions refinementOptions(const RecordArguments& arguments);
+
+/// Before work whose result goes to a file: INVALID_ARGUMENT if it cannot be written there.
+void requireOutputFolder(const std::string& path);
 
 /// A session id from the name of a recording: its last path component with everything unusual replaced by '_'.
 std::string sessionIdFrom(const std::string& recording);

@@ -97,6 +97,7 @@ int main(int argc, char** argv)
   cli::addTrackCommand(app, &command);
   cli::addModelCommand(app, &command);
   cli::addCalibrateNoiseCommand(app, &command);
+  cli::addCalibrateColorOffsetCommand(app, &command);
   cli::addInfoCommand(app, &command);
   cli::addReportCommand(app, &command);
   cli::addCompareCommand(app, &command);

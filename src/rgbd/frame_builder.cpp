@@ -98,23 +98,35 @@ void FrameBuilder::updateMaps(const geometry::PinholeCamera& camera)
   if (mapped_camera_ == camera)
     return;
   const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+  cv::Matx33d K_color = K;  // with it a pixel of the result shows what the colour image has that offset farther
+  K_color(0, 2) -= options_.noise_model.color_offset_x_px;
+  K_color(1, 2) -= options_.noise_model.color_offset_y_px;
+  const cv::Size size(camera.width, camera.height);
   cv::Mat map_x;
   cv::Mat map_y;
-  cv::initUndistortRectifyMap(K, camera.distortion, cv::noArray(), K, { camera.width, camera.height }, CV_32FC1, map_x,
-                              map_y);
+  cv::initUndistortRectifyMap(K, camera.distortion, cv::noArray(), K_color, size, CV_32FC1, map_x, map_y);
   cv::convertMaps(map_x, map_y, color_map_, color_map_fraction_, CV_16SC2);
   // A map of its own, rounded: nearest neighbour by the colour map would cut the fraction off, half a pixel too low.
+  cv::initUndistortRectifyMap(K, camera.distortion, cv::noArray(), K, size, CV_32FC1, map_x, map_y);
   cv::Mat unused;
   cv::convertMaps(map_x, map_y, nearest_map_, unused, CV_16SC2, true);
   mapped_camera_ = camera;
 }
 
-FrameBuilder::Images FrameBuilder::rectify(const RawFrame& raw)
+FrameBuilder::Images FrameBuilder::rectified(const RawFrame& raw)
 {
+  const bool distorted = raw.camera.distorted();
+  Images images{ raw.color, raw.depth, raw.object_mask };
+  if (!distorted && !options_.noise_model.shiftsColor())
+    return images;
   updateMaps(raw.camera);
+  images.color = cv::Mat();
+  const int border = distorted ? cv::BORDER_CONSTANT : cv::BORDER_REPLICATE;
+  cv::remap(raw.color, images.color, color_map_, color_map_fraction_, cv::INTER_LINEAR, border);
+  if (!distorted)
+    return images;
   // Out of the image is 0, which is "missing" in both depth types and "not the object" in the mask.
-  Images images;
-  cv::remap(raw.color, images.color, color_map_, color_map_fraction_, cv::INTER_LINEAR);
+  images.depth = images.object_mask = cv::Mat();
   cv::remap(raw.depth, images.depth, nearest_map_, cv::noArray(), cv::INTER_NEAREST);
   if (!raw.object_mask.empty())
     cv::remap(raw.object_mask, images.object_mask, nearest_map_, cv::noArray(), cv::INTER_NEAREST);
@@ -152,7 +164,7 @@ base::Result<Frame> FrameBuilder::build(const RawFrame& raw)
     result.status = badInput(reason);
     return result;
   }
-  const Images images = raw.camera.distorted() ? rectify(raw) : Images{ raw.color, raw.depth, raw.object_mask };
+  const Images images = rectified(raw);
 
   Frame& frame = result.value;
   frame.stamp_s = raw.stamp_s;

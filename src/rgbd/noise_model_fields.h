@@ -24,6 +24,8 @@ constexpr NoiseModelField NOISE_MODEL_FIELDS[] = {
   { "depth_bias_constant_m", &SensorNoiseModel::depth_bias_constant_m, -0.2, 0.2 },
   { "depth_bias_linear_ratio", &SensorNoiseModel::depth_bias_linear_ratio, -0.2, 0.2 },
   { "depth_bias_quadratic_per_m", &SensorNoiseModel::depth_bias_quadratic_per_m, -0.2, 0.2 },
+  { "color_offset_x_px", &SensorNoiseModel::color_offset_x_px, -20, 20 },
+  { "color_offset_y_px", &SensorNoiseModel::color_offset_y_px, -20, 20 },
 };
 
 }  // namespace object_modelling::rgbd

@@ -22,6 +22,8 @@ void forEachCoefficient(Model& model, Message& message, const Copy& copy)
   copy(model.depth_bias_constant_m, message.depth_bias_constant_m);
   copy(model.depth_bias_linear_ratio, message.depth_bias_linear_ratio);
   copy(model.depth_bias_quadratic_per_m, message.depth_bias_quadratic_per_m);
+  copy(model.color_offset_x_px, message.color_offset_x_px);
+  copy(model.color_offset_y_px, message.color_offset_y_px);
 }
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "object_modelling/base/status.h"
+#include "object_modelling/rgbd/noise_model_file.h"
 #include "tracking_report.h"
 
 namespace
@@ -23,7 +24,7 @@ struct Arguments
   RunOptions run;
   bool refine = false, events = false, verbose = false;
   int repeat = 1;
-  std::string out, json;
+  std::string noise_model, out, json;
 };
 
 std::vector<Event> readEvents(const std::string& path)
@@ -151,6 +152,8 @@ int main(int argc, char** argv)
       ->check(CLI::PositiveNumber);
   app.add_option("--skip", arguments.run.skip, "Leave out the first N frames")->check(CLI::NonNegativeNumber);
   app.add_option("--seed", arguments.run.seed, "Of the tracker's random choices");
+  app.add_option("--noise-model", arguments.noise_model, "YAML of the sensor, as calibrate_color_offset writes it")
+      ->check(CLI::ExistingFile);
   app.add_option("--repeat", arguments.repeat, "Runs; times are the medians of theirs")->check(CLI::PositiveNumber);
   app.add_option("--out", arguments.out, "Folder for trajectories")->check(CLI::ExistingDirectory);
   app.add_option("--json", arguments.json, "Also write all figures, and series by frame, to this file");
@@ -158,6 +161,8 @@ int main(int argc, char** argv)
   try
   {
     app.parse(argc, argv);
+    if (!arguments.noise_model.empty())
+      arguments.run.noise_model = rgbd::loadNoiseModel(arguments.noise_model);
     run(arguments);
   }
   catch (const CLI::ParseError& error)

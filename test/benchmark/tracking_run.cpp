@@ -61,7 +61,9 @@ Run trackRecording(const std::string& folder, const RunOptions& options)
   source::TumFolderOptions folder_options;
   folder_options.decode_ahead = false;
   const std::unique_ptr<source::FrameSource> source = source::openTumFolder(folder, folder_options);
-  rgbd::FrameBuilder builder;
+  rgbd::FrameBuilderOptions frame_options;
+  frame_options.noise_model = options.noise_model;
+  rgbd::FrameBuilder builder(frame_options);
   tracking::CameraTrackerOptions tracker_options;
   tracker_options.reference = options.object_reference ? tracking::Reference::OBJECT : tracking::Reference::SCENE;
   tracker_options.seed = options.seed;

@@ -14,9 +14,10 @@ struct RunOptions
 {
   bool object_reference = false;
   std::uint64_t seed = 1;
-  int every = 1;                  ///< only every Nth frame
-  int skip = 0;                   ///< first frames left out
-  bool keep_keyframes = false;    ///< for refining
+  int every = 1;                ///< only every Nth frame
+  int skip = 0;                 ///< first frames left out
+  bool keep_keyframes = false;  ///< for refining
+  rgbd::SensorNoiseModel noise_model;
   double keyframe_angle_rad = 0;  ///< instead of the tracker's; 0: as that has it
 };
 

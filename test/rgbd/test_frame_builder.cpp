@@ -93,6 +93,27 @@ TEST(FrameBuilder, TakesTheBiasOffTheDepth)
   EXPECT_EQ(raw.depth.at<std::uint16_t>(5, 5), 2000);
 }
 
+TEST(FrameBuilder, ShiftsColourOntoDepth)
+{
+  for (const bool distorted : { false, true })
+  {
+    RawFrame raw = goodFrame();
+    raw.camera.distortion = { distorted ? 1e-6 : 0.0, 0, 0, 0, 0 };
+    raw.color = cv::Mat(480, 640, CV_8UC1);
+    for (int v = 0; v < 480; ++v)
+      for (int u = 0; u < 640; ++u)
+        raw.color.at<std::uint8_t>(v, u) = cv::saturate_cast<std::uint8_t>(20 + 0.2 * u + 0.1 * v);
+    raw.depth.at<std::uint16_t>(200, 300) = 1600;
+    FrameBuilderOptions options;
+    options.noise_model.color_offset_x_px = 15;
+    options.noise_model.color_offset_y_px = -2.5;
+    const base::Result<Frame> result = FrameBuilder(options).build(raw);
+    ASSERT_TRUE(result.ok()) << result.status.message;
+    EXPECT_NEAR(result.value.gray.at<std::uint8_t>(200, 300), 20 + 0.2 * 315 + 0.1 * 197.5, 1);
+    EXPECT_FLOAT_EQ(result.value.depthAt_m(300, 200), 1.6f);
+  }
+}
+
 TEST(FrameBuilder, WithoutBiasDepthStaysAsItIs)
 {
   const base::Result<Frame> plain = FrameBuilder().build(goodFrame());

@@ -17,6 +17,7 @@ SensorNoiseModel unusual()
   model.axial_constant_m = 0.002 + 1.0 / 3e4;
   model.lateral_grazing_px = 0.05;
   model.depth_bias_quadratic_per_m = -1.0 / 700;
+  model.color_offset_y_px = -0.4;
   model.depth_distortion_ratio[10] = 1.0 / 3000;
   return model;
 }

@@ -28,12 +28,13 @@ struct FrameBuilderOptions
   double min_depth_ratio = 0.001;        ///< share of pixels that must have depth
   double min_depth_m = 0.1;              ///< nearer or farther readings count as missing
   double max_depth_m = 8.0;
-  SensorNoiseModel noise_model;  ///< goes with every frame; what it knows of bias is taken off the depth
+  SensorNoiseModel noise_model;  ///< goes with every frame; what it knows of bias and colour offset is taken off
   std::vector<std::string> violations() const;
 };
 
 /// Checks a raw frame and makes a Frame of it: depth in metres, without the noise model's bias, both images rectified
-/// (colour bilinear, depth and mask nearest neighbour) through maps that are computed once per camera. Not thread safe.
+/// and colour shifted onto depth by its offset (colour bilinear, depth and mask nearest neighbour) through maps that
+/// are computed once per camera. Not thread safe.
 class FrameBuilder
 {
 public:
@@ -49,7 +50,7 @@ private:
     cv::Mat color, depth, object_mask;
   };
 
-  Images rectify(const RawFrame& raw);
+  Images rectified(const RawFrame& raw);
   void updateMaps(const geometry::PinholeCamera& camera);
   void takeBiasOff(cv::Mat* depth_m);
 

@@ -17,10 +17,11 @@ namespace object_modelling::rgbd
 ///             + axial_grazing / sqrt(z) theta^2 / (90 deg - theta)^2   if theta > axial_grazing_from
 ///   sigma_L = lateral_constant + lateral_grazing theta / (90 deg - theta)
 ///   measured z - true z = depth_bias_constant + depth_bias_linear z + depth_bias_quadratic z^2 + distortion(u, v) z
+///   pixel of a point in the colour image - its pixel in the depth image = color_offset
 ///
 /// z is along the optical axis, theta the angle between surface normal and viewing ray, in [0, 90 deg); from there on
-/// the surface cannot be seen and the sigmas are infinite. The bias is taken off by FrameBuilder, once: every frame's
-/// depth is corrected already.
+/// the surface cannot be seen and the sigmas are infinite. Bias and offset are taken off by FrameBuilder, once: every
+/// frame's depth and colour are corrected already.
 struct SensorNoiseModel
 {
   static constexpr int DISTORTION_COLUMNS = 9;
@@ -37,6 +38,7 @@ struct SensorNoiseModel
   double depth_bias_constant_m = 0;
   double depth_bias_linear_ratio = 0;
   double depth_bias_quadratic_per_m = 0;
+  double color_offset_x_px = 0, color_offset_y_px = 0;
   /// Share of the depth, at knots that divide the image evenly from its first to its last pixel, row by row; bilinear
   /// between them.
   Distortion depth_distortion_ratio{};
@@ -49,6 +51,7 @@ struct SensorNoiseModel
   /// Measured minus true depth, without the distortion; `z_m` is the measured depth.
   double depthBias_m(double z_m) const;
   bool correctsDepth() const;
+  bool shiftsColor() const { return color_offset_x_px != 0 || color_offset_y_px != 0; }
   /// The knots' value at a pixel of an image of the given size.
   double distortionAt_ratio(double u_px, double v_px, int width_px, int height_px) const;
 
@@ -62,7 +65,8 @@ struct SensorNoiseModel
 struct SensorCalibration
 {
   SensorNoiseModel noise_model;
-  /// Pixel of a point in the colour image minus its pixel in the depth image; zero where not known.
+  /// What the frames have left of the noise model's offset: pixel of a point in the colour image minus its pixel in the
+  /// depth image; zero where not known.
   Eigen::Vector2d color_offset_px = Eigen::Vector2d::Zero();
   SensorCorrection correction;  ///< of frames as they came; identity where not known
 

@@ -1,0 +1,94 @@
+#include <iomanip>
+#include <memory>
+#include <sstream>
+
+#include "command.h"
+#include "object_modelling/base/options.h"
+#include "object_modelling/rgbd/noise_model_file.h"
+#include "object_modelling/ros_bridge/recording.h"
+#include "temporary_store.h"
+
+namespace object_modelling::cli
+{
+namespace
+{
+struct Arguments
+{
+  std::vector<std::string> recordings;
+  std::string output = "noise.yaml";
+  RecordArguments record;
+};
+
+/// What one recording says that its frames have left of the offset.
+Eigen::Vector2d offsetLeft_px(const std::string& recording, const RecordArguments& arguments, base::JobControl& control)
+{
+  const std::unique_ptr<source::FrameSource> source = ros_bridge::openRecording(recording);
+  TemporaryStore store;
+  keyframes::Session session;
+  session.id = sessionIdFrom(recording);
+  pipeline::recordSession(*source, session, &store.get(), recordOptions(arguments), control);
+  pipeline::RefinementOptions options = refinementOptions(arguments);
+  options.method = pipeline::RefinementMethod::BUNDLE_ADJUSTMENT;
+  options.bundle_adjustment.calibrate_color_offset = true;
+  const pipeline::SessionRefinement refined = pipeline::refineSessionBy(store.get(), session.id, options, control);
+  if (!refined.status.ok())
+    throw base::Error(refined.status.code, recording + ": " + refined.status.message +
+                                               "; record an object and a table with print, once round");
+  return refined.bundle_adjustment->color_offset_px;
+}
+
+CommandOutput run(const Arguments& arguments, base::JobControl& control)
+{
+  requireOutputFolder(arguments.output);
+  rgbd::SensorNoiseModel model = recordOptions(arguments.record).frame.noise_model;
+  const Eigen::Vector2d known_px(model.color_offset_x_px, model.color_offset_y_px);
+  CommandOutput output;
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2);
+  Eigen::Vector2d sum_px = Eigen::Vector2d::Zero();
+  for (const std::string& recording : arguments.recordings)
+  {
+    const Eigen::Vector2d offset_px = known_px + offsetLeft_px(recording, arguments.record, control);
+    text << "offset    (" << offset_px.x() << ", " << offset_px.y() << ") px: " << recording << "\n";
+    output.json["recordings"].push_back(
+        { { "recording", recording }, { "color_offset_px", { offset_px.x(), offset_px.y() } } });
+    sum_px += offset_px;
+  }
+  const Eigen::Vector2d mean_px = sum_px / static_cast<double>(arguments.recordings.size());
+  if (arguments.recordings.size() > 1)
+    text << "mean      (" << mean_px.x() << ", " << mean_px.y() << ") px\n";
+  control.checkCancelled();
+  model.color_offset_x_px = mean_px.x();
+  model.color_offset_y_px = mean_px.y();
+  rgbd::saveNoiseModel(arguments.output, base::checked(model),
+                       "Colour offset found by bundle adjustment; docs/noise_model.md\n" + text.str());
+  text << "written   " << arguments.output << "\n";
+  output.text = text.str();
+  output.json["color_offset_px"] = { mean_px.x(), mean_px.y() };
+  output.json["output"] = arguments.output;
+  return output;
+}
+}  // namespace
+
+void addCalibrateColorOffsetCommand(CLI::App& app, Command* chosen)
+{
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("calibrate_color_offset",
+                                         "By how much a sensor's colour images are shifted against its depth images");
+  command
+      ->add_option("recordings", arguments->recordings,
+                   "TUM-style folders or ROS bags of one sensor: once round an object, with print on it or its table")
+      ->required();
+  command
+      ->add_option(
+          "--output", arguments->output,
+          "YAML for --noise-model and the nodes' parameter noise_model; the rest in it is that of --noise-model")
+      ->capture_default_str();
+  addTrackingOptions(*command, &arguments->record);
+  command->footer(
+      "Example: object_modelling calibrate_color_offset mug.bag --noise-model xtion.yaml --output xtion.yaml");
+  command->callback([arguments, chosen]
+                    { *chosen = [arguments](base::JobControl& control) { return run(*arguments, control); }; });
+}
+
+}  // namespace object_modelling::cli
