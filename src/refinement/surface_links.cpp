@@ -58,13 +58,13 @@ std::vector<IndexPair> overlappingPairs(const std::vector<rgbd::Keyframe>& keyfr
 
 /// One pair in both directions; a link needs both to agree.
 std::optional<SurfaceLink> linkPair(const std::vector<tracking::SurfaceView>& views, const IndexPair& pair,
-                                    const Eigen::Isometry3d& T_a_b_start)
+                                    const Eigen::Isometry3d& T_a_b_start, tracking::SurfaceStart start)
 {
   const auto [a, b] = pair;
-  const auto forwards = tracking::alignSurfaces(views[a], views[b], T_a_b_start);
+  const auto forwards = tracking::alignSurfaces(views[a], views[b], T_a_b_start, start);
   if (!forwards)
     return std::nullopt;
-  const auto backwards = tracking::alignSurfaces(views[b], views[a], T_a_b_start.inverse());
+  const auto backwards = tracking::alignSurfaces(views[b], views[a], T_a_b_start.inverse(), start);
   if (!backwards)
     return std::nullopt;
   const Eigen::Isometry3d round_trip = forwards->T_a_b * backwards->T_a_b;
@@ -89,15 +89,22 @@ std::optional<SurfaceLink> linkPair(const std::vector<tracking::SurfaceView>& vi
 std::vector<tracking::SurfaceView> viewsOf(const std::vector<rgbd::Keyframe>& keyframes,
                                            const Eigen::Vector2d& color_offset_px, bool object_only)
 {
+  std::vector<std::optional<tracking::SurfaceView>> made(keyframes.size());
+  cv::parallel_for_(cv::Range(0, static_cast<int>(keyframes.size())),
+                    [&](const cv::Range& range)
+                    {
+                      for (int k = range.start; k < range.end; ++k)
+                      {
+                        rgbd::Frame frame = keyframes[k].frame;
+                        if (!object_only)
+                          frame.object_mask.release();
+                        frame.gray = ontoDepth(frame.gray, color_offset_px);
+                        made[k].emplace(frame);
+                      }
+                    });
   std::vector<tracking::SurfaceView> views;
-  for (const rgbd::Keyframe& keyframe : keyframes)
-  {
-    rgbd::Frame frame = keyframe.frame;
-    if (!object_only)
-      frame.object_mask.release();
-    frame.gray = ontoDepth(frame.gray, color_offset_px);
-    views.emplace_back(frame);
-  }
+  for (std::optional<tracking::SurfaceView>& view : made)
+    views.push_back(std::move(*view));
   return views;
 }
 
@@ -111,10 +118,11 @@ struct ShiftedViews
 /// sides, since interpolation does the same to either.)
 void findByColorOffset(const std::array<ShiftedViews, 2>& shifted, SurfaceLink* link)
 {
+  constexpr auto NEAR = tracking::SurfaceStart::NEAR;
   for (int axis = 0; axis < 2; ++axis)
   {
-    const std::optional<SurfaceLink> back = linkPair(shifted[axis].back, { link->a, link->b }, link->T_a_b);
-    const std::optional<SurfaceLink> forth = linkPair(shifted[axis].forth, { link->a, link->b }, link->T_a_b);
+    const std::optional<SurfaceLink> back = linkPair(shifted[axis].back, { link->a, link->b }, link->T_a_b, NEAR);
+    const std::optional<SurfaceLink> forth = linkPair(shifted[axis].forth, { link->a, link->b }, link->T_a_b, NEAR);
     if (back && forth)
       link->by_color_offset.col(axis) =
           geometry::vectorFromIsometry(forth->T_a_b * back->T_a_b.inverse()) / (2 * OFFSET_STEP_PX);
@@ -151,7 +159,8 @@ std::vector<SurfaceLink> linkSurfaces(const std::vector<rgbd::Keyframe>& keyfram
                         {
                           const auto [a, b] = pairs[i];
                           linked[i] = linkPair(views, pairs[i],
-                                               keyframes[a].T_session_camera.inverse() * keyframes[b].T_session_camera);
+                                               keyframes[a].T_session_camera.inverse() * keyframes[b].T_session_camera,
+                                               tracking::SurfaceStart::ROUGH);
                           if (!linked[i])
                             continue;
                           linked[i]->color_offset_px = color_offset_px;

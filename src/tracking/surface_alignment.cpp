@@ -39,12 +39,15 @@ SurfaceView::SurfaceView(SurfaceView&&) noexcept = default;
 SurfaceView& SurfaceView::operator=(SurfaceView&&) noexcept = default;
 
 std::optional<SurfaceAlignment> alignSurfaces(const SurfaceView& a, const SurfaceView& b,
-                                              const Eigen::Isometry3d& T_a_b_start)
+                                              const Eigen::Isometry3d& T_a_b_start, SurfaceStart start)
 {
+  DenseAlignmentOptions options;
+  if (start == SurfaceStart::NEAR)
+    options.coarsest_level = 0;
   // b is the reference with the session frame in its camera, so that a's T_camera_session is T_a_b.
   const DenseAlignment aligned =
       alignDense(SurfaceAccess::data(b).reference, Eigen::Isometry3d::Identity(), SurfaceAccess::data(a).pyramid,
-                 T_a_b_start.inverse(), geometry::Matrix6d::Zero());
+                 T_a_b_start.inverse(), geometry::Matrix6d::Zero(), options);
   if (!convincing(aligned.term))
     return std::nullopt;
   return SurfaceAlignment{ aligned.T_session_camera.inverse(), aligned.term.equations.A, aligned.term.overlap };

@@ -34,10 +34,16 @@ struct SurfaceAlignment
   double overlap = 0;  ///< share of b's surfaces that a sees
 };
 
-/// Aligns two frames by depth and intensity, coarse to fine (see the camera tracker), from a start that may be several
-/// degrees off. Nothing if the surfaces do not fit; surfaces may fit and yet have slid along each other, so align a
-/// with b and b with a, and compare.
+enum class SurfaceStart
+{
+  ROUGH,  ///< several degrees off: coarse to fine
+  NEAR    ///< a fraction of a pixel off: the finest images alone
+};
+
+/// Aligns two frames by depth and intensity (see the camera tracker). Nothing if the surfaces do not fit; surfaces may
+/// fit and yet have slid along each other, so align a with b and b with a, and compare.
 std::optional<SurfaceAlignment> alignSurfaces(const SurfaceView& a, const SurfaceView& b,
-                                              const Eigen::Isometry3d& T_a_b_start);
+                                              const Eigen::Isometry3d& T_a_b_start,
+                                              SurfaceStart start = SurfaceStart::ROUGH);
 
 }  // namespace object_modelling::tracking
