@@ -18,6 +18,8 @@ constexpr int ENOUGH_SHARED = 40;
 // Rounds of adjusting, checking the links, dropping those that contradict.
 constexpr int MAX_ROUNDS = 4;
 constexpr int COARSE_ITERATIONS = 12;
+// Share of the cost that an iteration must save: while outliers take part, and at the end.
+constexpr double ROUGH_IMPROVEMENT_RATIO = 1e-4, IMPROVEMENT_RATIO = 1e-5;
 // Share of the sights by whose error the start is judged, and how many times that a landmark may be off.
 constexpr double TYPICAL_SHARE = 0.8;
 constexpr double STRAY_FACTOR = 4.0;
@@ -82,7 +84,7 @@ Adjustment BundleAdjuster::run()
   adjustment.active.assign(adjustment.links.size(), true);
   for (int round = 0; round < MAX_ROUNDS; ++round)
   {
-    adjust(&adjustment);
+    adjust(IMPROVEMENT_RATIO, &adjustment);
     if (!adjustment.summary.usable || !dropContradicting(&adjustment))
       break;
   }
@@ -98,7 +100,7 @@ rgbd::SensorCorrection BundleAdjuster::calibrate()
   adjustment.active.assign(adjustment.links.size(), true);
   for (int round = 0; round < MAX_ROUNDS; ++round)
   {
-    adjust(&adjustment);
+    adjust(IMPROVEMENT_RATIO, &adjustment);
     if (!adjustment.summary.usable || !dropContradicting(&adjustment))
       break;
   }
@@ -123,7 +125,7 @@ void BundleAdjuster::findLinks(Adjustment* adjustment)
   if (options_.calibrate_color_offset)
   {
     adjustment->active.assign(adjustment->links.size(), true);
-    adjust(adjustment);
+    adjust(ROUGH_IMPROVEMENT_RATIO, adjustment);
   }
   surface_links_ = linkSurfaces(keyframes_, adjustment->state.color_offset_px, options_.calibrate_color_offset,
                                 options_.object_only, *control_);
@@ -149,7 +151,7 @@ std::vector<SightGroup> BundleAdjuster::groupsOf(Adjustment* adjustment) const
   return restrictTo(adjustment->members, groups);
 }
 
-void BundleAdjuster::adjust(Adjustment* adjustment) const
+void BundleAdjuster::adjust(double min_improvement_ratio, Adjustment* adjustment) const
 {
   groupsOf(adjustment);
   adjustment->summary = {};
@@ -191,7 +193,7 @@ void BundleAdjuster::adjust(Adjustment* adjustment) const
   approach(fixed, adjustment);
   state.map = placeLandmarks(groups, keyframes_, state.T_session_camera, options_.min_observations_per_landmark);
   if (!state.map.landmarks.empty() || !state.surface_links.empty())
-    solve(fixed, adjustment);
+    solve(fixed, min_improvement_ratio, adjustment);
 }
 
 void BundleAdjuster::approach(int fixed, Adjustment* adjustment) const
@@ -210,7 +212,7 @@ void BundleAdjuster::approach(int fixed, Adjustment* adjustment) const
     adjustment->iterations += solveBundle(keyframes_, fixed, solver, *control_, &state).iterations;
 }
 
-void BundleAdjuster::solve(int fixed, Adjustment* adjustment) const
+void BundleAdjuster::solve(int fixed, double min_improvement_ratio, Adjustment* adjustment) const
 {
   BundleState& state = adjustment->state;
   BundleSolverOptions solver;
@@ -222,11 +224,13 @@ void BundleAdjuster::solve(int fixed, Adjustment* adjustment) const
   solver.calibrate_depth_ratio = options_.calibrate_depth_ratio;
   solver.calibrate_depth_offset = options_.calibrate_depth_offset;
   fitDepths(keyframes_, &state.map);
+  solver.min_improvement_ratio = ROUGH_IMPROVEMENT_RATIO;
   adjustment->summary = solveBundle(keyframes_, fixed, solver, *control_, &state);
   adjustment->iterations += adjustment->summary.iterations;
   if (!adjustment->summary.usable)
     return;
   // The loss bounds the pull of an outlier but does not end it, and strays pull together: without them once more.
+  solver.min_improvement_ratio = min_improvement_ratio;
   state.map = withoutOutliers(state.map, sightErrors_sigmas(keyframes_, state), OUTLIER_SIGMAS,
                               options_.min_observations_per_landmark);
   adjustment->summary = solveBundle(keyframes_, fixed, solver, *control_, &state);

@@ -42,11 +42,11 @@ private:
   void findLinks(Adjustment* adjustment);
   /// The landmarks of tracker and active links; chooses the members.
   std::vector<SightGroup> groupsOf(Adjustment* adjustment) const;
-  void adjust(Adjustment* adjustment) const;
+  void adjust(double min_improvement_ratio, Adjustment* adjustment) const;
   /// Graduated non-convexity: the loss starts as wide as the errors are and narrows, so that a loop that is open by
   /// many sigmas is closed rather than taken for an outlier.
   void approach(int fixed, Adjustment* adjustment) const;
-  void solve(int fixed, Adjustment* adjustment) const;
+  void solve(int fixed, double min_improvement_ratio, Adjustment* adjustment) const;
   /// Shared landmarks of each pair of keyframes; surfaces count as enough of them.
   Eigen::MatrixXi connections(const std::vector<SightGroup>& groups) const;
   /// Whether any link had to go.

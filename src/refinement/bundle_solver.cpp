@@ -61,7 +61,7 @@ ceres::Solver::Options ceresOptions(const BundleSolverOptions& options)
   result.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
   result.max_num_iterations = options.max_iterations;
   result.num_threads = options.threads;
-  result.function_tolerance = 1e-6;
+  result.function_tolerance = options.min_improvement_ratio;
   result.logging_type = ceres::SILENT;
   result.minimizer_progress_to_stdout = false;
   return result;
@@ -126,7 +126,6 @@ BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, in
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options, &problem, &summary);
   callback.rethrow();
-
   BundleSolverSummary result;
   result.usable = summary.IsSolutionUsable();
   result.converged = summary.termination_type == ceres::CONVERGENCE;

@@ -12,6 +12,7 @@ namespace object_modelling::refinement
 struct BundleSolverOptions
 {
   double loss_width_sigmas = 2;
+  double min_improvement_ratio = 1e-6;  ///< of the cost in one iteration; less ends it
   int max_iterations = 50;
   int threads = 1;
   bool calibrate_color_offset = false;  ///< this and the following: else it stays as it is in the state
