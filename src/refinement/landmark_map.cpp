@@ -94,6 +94,21 @@ bool place(const std::vector<Sight>& sights, const std::vector<rgbd::Keyframe>& 
   return true;
 }
 
+/// Eliminating a landmark takes time with the square of its sights, and what is seen from everywhere is known well
+/// enough: of many sights some, evenly, and of every landmark others, so that no keyframe is left out.
+void thin(std::size_t landmark, std::vector<Sight>* sights)
+{
+  constexpr std::size_t MAX_SIGHTS = 30;
+  constexpr double GOLDEN_RATIO = 0.6180339887498949;
+  if (sights->size() <= MAX_SIGHTS)
+    return;
+  const double phase = std::fmod(GOLDEN_RATIO * static_cast<double>(landmark), 1.0);
+  const double step = static_cast<double>(sights->size()) / MAX_SIGHTS;
+  for (std::size_t i = 0; i < MAX_SIGHTS; ++i)
+    (*sights)[i] = (*sights)[static_cast<std::size_t>((static_cast<double>(i) + phase) * step)];
+  sights->resize(MAX_SIGHTS);
+}
+
 }  // namespace
 
 std::vector<SightGroup> trackedSights(const std::vector<rgbd::Keyframe>& keyframes, double sigma_px, bool object_only)
@@ -142,6 +157,7 @@ LandmarkMap placeLandmarks(const std::vector<SightGroup>& groups, const std::vec
     }
     if (static_cast<int>(visible.size()) < min_sights)
       continue;
+    thin(map.landmarks.size(), &visible);
     for (Sight& sight : visible)
     {
       sight.landmark = static_cast<int>(map.landmarks.size());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mesh_topology.h"
 
@@ -52,6 +53,20 @@ std::vector<float> sharpnessOf(const geometry::TriangleMesh& mesh, const std::ve
     if (common[k] > 0)
       sharpness[k] = std::clamp(static_cast<float>(own[k] / common[k]), MIN_SHARPNESS, MAX_SHARPNESS);
   return sharpness;
+}
+
+/// Views are compared in pairs, and beyond the best few they change no colour.
+void keepBest(std::vector<VertexView>* seen)
+{
+  constexpr std::size_t MAX_VIEWS = 24;
+  if (seen->size() <= MAX_VIEWS)
+    return;
+  const auto end = seen->begin() + MAX_VIEWS;
+  std::partial_sort(seen->begin(), end, seen->end(),
+                    [](const VertexView& a, const VertexView& b)
+                    { return std::make_pair(-a.weight, a.view) < std::make_pair(-b.weight, b.view); });
+  seen->erase(end, seen->end());
+  std::sort(seen->begin(), seen->end(), [](const VertexView& a, const VertexView& b) { return a.view < b.view; });
 }
 
 /// Down-weights the views of one vertex by their distance from the common colour (Geman-McClure), which starts from
@@ -106,6 +121,8 @@ VertexWeights weighViews(const geometry::TriangleMesh& mesh, const std::vector<T
   for (std::vector<VertexView>& of_vertex : weights)
     for (VertexView& seen : of_vertex)
       seen.weight *= sharpness[seen.view] * sharpness[seen.view];
+  for (std::vector<VertexView>& of_vertex : weights)
+    keepBest(&of_vertex);
   return weights;
 }
 
