@@ -19,14 +19,16 @@ struct Arguments
   RecordArguments record;
 };
 
-/// What one recording says that its frames have left of the offset.
-Eigen::Vector2d offsetLeft_px(const std::string& recording, const RecordArguments& arguments, base::JobControl& control)
+/// What one recording says.
+Eigen::Vector2d offset_px(const std::string& recording, const RecordArguments& arguments, base::JobControl& control)
 {
   const std::unique_ptr<source::FrameSource> source = ros_bridge::openRecording(recording);
   TemporaryStore store;
   keyframes::Session session;
   session.id = sessionIdFrom(recording);
-  pipeline::recordSession(*source, session, &store.get(), recordOptions(arguments), control);
+  pipeline::RecordOptions record = recordOptions(arguments);
+  record.frame.noise_model.color_offset_x_px = record.frame.noise_model.color_offset_y_px = 0;
+  pipeline::recordSession(*source, session, &store.get(), record, control);
   pipeline::RefinementOptions options = refinementOptions(arguments);
   options.method = pipeline::RefinementMethod::BUNDLE_ADJUSTMENT;
   options.bundle_adjustment.calibrate_color_offset = true;
@@ -41,18 +43,17 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
 {
   requireOutputFolder(arguments.output);
   rgbd::SensorNoiseModel model = recordOptions(arguments.record).frame.noise_model;
-  const Eigen::Vector2d known_px(model.color_offset_x_px, model.color_offset_y_px);
   CommandOutput output;
   std::ostringstream text;
   text << std::fixed << std::setprecision(2);
   Eigen::Vector2d sum_px = Eigen::Vector2d::Zero();
   for (const std::string& recording : arguments.recordings)
   {
-    const Eigen::Vector2d offset_px = known_px + offsetLeft_px(recording, arguments.record, control);
-    text << "offset    (" << offset_px.x() << ", " << offset_px.y() << ") px: " << recording << "\n";
+    const Eigen::Vector2d found_px = offset_px(recording, arguments.record, control);
+    text << "offset    (" << found_px.x() << ", " << found_px.y() << ") px: " << recording << "\n";
     output.json["recordings"].push_back(
-        { { "recording", recording }, { "color_offset_px", { offset_px.x(), offset_px.y() } } });
-    sum_px += offset_px;
+        { { "recording", recording }, { "color_offset_px", { found_px.x(), found_px.y() } } });
+    sum_px += found_px;
   }
   const Eigen::Vector2d mean_px = sum_px / static_cast<double>(arguments.recordings.size());
   if (arguments.recordings.size() > 1)

@@ -66,6 +66,9 @@ SessionRefinement refineSessionBy(keyframes::SessionStore& store, const std::str
   options.bundle_adjustment.object_only |= session.reference_is_object;
   options.multi_view_icp.object_only |= session.reference_is_object;
   options.multi_view_icp.color_offset_px = session.calibration.color_offset_px;
+  // What one session tells of the offset is less than a calibration does.
+  if (session.calibration.noise_model.shiftsColor())
+    options.bundle_adjustment.calibrate_color_offset = false;
   std::vector<rgbd::Keyframe> keyframes = loadReported(store, session_id, control);
   SessionRefinement refined;
   if (keyframes.empty())

@@ -30,10 +30,15 @@ class CalibrateColorOffsetTest(unittest.TestCase):
         self.assertEqual(model["axial_constant_m"], 0.0013)
         self.assertAlmostEqual(model["color_offset_y_px"], self.result["color_offset_px"][1], places=9)
 
-    def test_frames_that_are_shifted_have_nothing_left(self):
+    def test_again_finds_the_same(self):
         again = run_json("calibrate_color_offset", HANDHELD, "--noise-model", self.noise, "--output", self.noise + ".2")
-        for known, total in zip(self.result["color_offset_px"], again["color_offset_px"]):
-            self.assertAlmostEqual(total, known, delta=0.15)
+        self.assertEqual(again["color_offset_px"], self.result["color_offset_px"])
+
+    def test_refinement_takes_it_as_known(self):
+        for options, known in ([], False), (["--noise-model", self.noise], True):
+            tracked = run_json("track", HANDHELD, "--refinement", "bundle_adjustment", "--refined-trajectory",
+                               os.path.join(self.folder.name, "refined.txt"), *options)
+            self.assertEqual(tracked["refinement"]["color_offset_px"] == [0, 0], known)
 
     def test_output_that_cannot_be_is_refused_at_once(self):
         finished = run("calibrate_color_offset", HANDHELD, "--output", os.path.join(self.folder.name, "none", "n.yaml"))
