@@ -9,6 +9,7 @@
 #include "object_modelling/surface/decimation.h"
 #include "point_index.h"
 #include "poisson.h"
+#include "thin_walls.h"
 
 namespace object_modelling::surface
 {
@@ -20,6 +21,9 @@ constexpr std::size_t COLOR_NEIGHBOURS = 4;
 /// Surface this near to a fused point is seen even at the rim of the cloud; in units of the resolution.
 constexpr float RIM_RATIO = 1.f;
 constexpr double CELL_RATIO = 0.5;  ///< of the resolution: between the two sides of a thin wall there must be cells
+/// Poisson's surfaces need a few cells between them: the sides of a thinner wall are meshed this far apart and taken
+/// back.
+constexpr double WALL_RATIO = 1.75;
 constexpr double MIN_PIECE_RATIO = 0.02;  ///< of the largest piece's area
 constexpr int STAGES = 4;
 
@@ -111,9 +115,14 @@ SurfaceResult reconstructSurface(const fusion::FusedCloud& cloud, const std::opt
   std::vector<Eigen::Vector3f> points = cloud.points, normals = cloud.normals;
   if (options.watertight && support)
     addBase(*support, options.resolution_m, &points, &normals);
+  const std::vector<float> spread_m =
+      spreadOfWalls_m(points, normals, PointIndex(points), static_cast<float>(WALL_RATIO * options.resolution_m));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] += spread_m[i] * normals[i];
   geometry::TriangleMesh mesh = poissonSurface(points, normals, CELL_RATIO * options.resolution_m);
   removeDegenerateTriangles(&mesh);
   geometry::computeNormals(&mesh);
+  takeSpreadBack(points, normals, spread_m, &mesh);
 
   control.report("mesh", 1, STAGES);
   const PointIndex index(cloud.points);

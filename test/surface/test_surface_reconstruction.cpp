@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -114,6 +115,54 @@ TEST(SurfaceReconstruction, SmallGapsAreClosed)
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_EQ(boundaryEdges(result.mesh), 0);
   EXPECT_TRUE(result.mesh.colors.empty()) << "no colours in, none out";
+}
+
+/// Half a hollow ball whose wall is `wall_m` thick, with noise along the normals; the rim of the wall is not seen.
+fusion::FusedCloud cup(float wall_m, float noise_m)
+{
+  const fusion::FusedCloud half = sphere(0);
+  std::mt19937 random(1);
+  std::normal_distribution<float> noise(0, noise_m);
+  fusion::FusedCloud cloud;
+  for (const float side : { 1.f, -1.f })
+    for (std::size_t i = 0; i < half.size(); ++i)
+    {
+      const Eigen::Vector3f n = half.normals[i];
+      cloud.points.push_back((RADIUS_M - (side < 0 ? wall_m : 0) + noise(random)) * n);
+      cloud.normals.push_back(side * n);
+      cloud.colors.push_back(half.colors[i]);
+      cloud.weights.push_back(1);
+      cloud.sigmas_m.push_back(1e-4f);
+    }
+  return cloud;
+}
+
+TEST(SurfaceReconstruction, ThinWallKeepsTwoSidesWithoutHoles)
+{
+  for (const float wall_m : { 0.0006f, 0.001f, 0.0025f })
+  {
+    const SurfaceResult result = reconstruct(cup(wall_m, 0.0002f));
+    ASSERT_TRUE(result.status.ok()) << result.status.message;
+    double outer_area = 0, inner_area = 0, squares = 0;
+    int counted = 0;
+    for (const auto& [a, b, c] : result.mesh.triangles)
+    {
+      const Eigen::Vector3f &p = result.mesh.vertices[a], &q = result.mesh.vertices[b], &r = result.mesh.vertices[c];
+      const Eigen::Vector3f middle = (p + q + r) / 3, cross = (q - p).cross(r - p);
+      if (middle.z() < 0.01f)
+        continue;
+      const bool outside = cross.dot(middle) > 0;
+      (outside ? outer_area : inner_area) += 0.5 * cross.norm();
+      const float error_m = middle.norm() - (RADIUS_M - (outside ? 0 : wall_m));
+      squares += error_m * error_m;
+      ++counted;
+    }
+    const double outer = 2 * M_PI * RADIUS_M * (RADIUS_M - 0.01);
+    const double inner_radius = RADIUS_M - wall_m, inner = 2 * M_PI * inner_radius * (inner_radius - 0.01);
+    EXPECT_NEAR(outer_area, outer, 0.02 * outer) << wall_m;
+    EXPECT_NEAR(inner_area, inner, 0.02 * inner) << wall_m;
+    EXPECT_LT(std::sqrt(squares / counted), 0.0002) << wall_m;
+  }
 }
 
 TEST(SurfaceReconstruction, StrayPointsMakeNoPiece)

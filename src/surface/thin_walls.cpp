@@ -1,0 +1,99 @@
+#include "thin_walls.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace object_modelling::surface
+{
+namespace
+{
+constexpr std::size_t NEIGHBOURS = 32;
+constexpr std::size_t BACK_NEIGHBOURS = 8;
+constexpr float OPPOSITE_COSINE = -0.5f;  ///< between the normals of the two sides
+constexpr float SAME_SIDE_COSINE = 0.3f;
+constexpr int SMOOTHINGS = 3;  ///< each over the nearest points of the same side
+
+/// Distance to the other side behind a point; `none_m` without one nearer than that.
+float thickness_m(std::size_t i, const std::vector<Eigen::Vector3f>& points,
+                  const std::vector<Eigen::Vector3f>& normals, const std::vector<PointIndex::Neighbour>& neighbours,
+                  float none_m)
+{
+  float thinnest_m = none_m;
+  for (const PointIndex::Neighbour& neighbour : neighbours)
+  {
+    const Eigen::Vector3f& normal = normals[i];
+    if (normals[neighbour.index].dot(normal) > OPPOSITE_COSINE)
+      continue;
+    const Eigen::Vector3f to_other = points[neighbour.index] - points[i];
+    const float behind_m = -to_other.dot(normal);
+    const float beside_m = (to_other + behind_m * normal).norm();
+    // Noise may bring the sides past each other.
+    if (behind_m > -0.5f * none_m && beside_m < none_m)
+      thinnest_m = std::min(thinnest_m, std::max(behind_m, 0.f));
+  }
+  return thinnest_m;
+}
+}  // namespace
+
+std::vector<float> spreadOfWalls_m(const std::vector<Eigen::Vector3f>& points,
+                                   const std::vector<Eigen::Vector3f>& normals, const PointIndex& index,
+                                   float min_thickness_m)
+{
+  const auto count = static_cast<std::int64_t>(points.size());
+  std::vector<std::vector<PointIndex::Neighbour>> neighbours(points.size());
+  std::vector<float> spread_m(points.size());
+#pragma omp parallel for schedule(static)
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    index.nearest(points[i], NEIGHBOURS, &neighbours[i]);
+    spread_m[i] = 0.5f * (min_thickness_m - thickness_m(i, points, normals, neighbours[i], min_thickness_m));
+  }
+  std::vector<float> smooth_m(points.size());
+  for (int round = 0; round < SMOOTHINGS; ++round)
+  {
+#pragma omp parallel for schedule(static)
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      float sum_m = 0, same_side = 0;
+      for (const PointIndex::Neighbour& neighbour : neighbours[i])
+        if (normals[neighbour.index].dot(normals[i]) > SAME_SIDE_COSINE)
+        {
+          sum_m += spread_m[neighbour.index];
+          ++same_side;
+        }
+      smooth_m[i] = same_side > 0 ? sum_m / same_side : spread_m[i];
+    }
+    spread_m.swap(smooth_m);
+  }
+  return spread_m;
+}
+
+void takeSpreadBack(const std::vector<Eigen::Vector3f>& spread_points, const std::vector<Eigen::Vector3f>& normals,
+                    const std::vector<float>& spread_m, geometry::TriangleMesh* mesh)
+{
+  if (std::all_of(spread_m.begin(), spread_m.end(), [](float value) { return value == 0; }))
+    return;
+  const PointIndex index(spread_points);
+#pragma omp parallel for schedule(static)
+  for (std::int64_t i = 0; i < static_cast<std::int64_t>(mesh->vertices.size()); ++i)
+  {
+    std::vector<PointIndex::Neighbour> neighbours;
+    index.nearest(mesh->vertices[i], BACK_NEIGHBOURS, &neighbours);
+    Eigen::Vector3f moved = Eigen::Vector3f::Zero();
+    float total = 0;
+    for (const PointIndex::Neighbour& neighbour : neighbours)
+    {
+      const Eigen::Vector3f& normal = normals[neighbour.index];
+      if (normal.dot(mesh->normals[i]) <= 0)
+        continue;
+      const float weight = 1 / (neighbour.squared_distance + 1e-9f);
+      moved += weight * spread_m[neighbour.index] * normal;
+      total += weight;
+    }
+    if (total > 0)
+      mesh->vertices[i] -= moved / total;
+  }
+  geometry::computeNormals(mesh);
+}
+
+}  // namespace object_modelling::surface
