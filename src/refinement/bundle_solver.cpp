@@ -126,6 +126,7 @@ BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, in
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options, &problem, &summary);
   callback.rethrow();
+
   BundleSolverSummary result;
   result.usable = summary.IsSolutionUsable();
   result.converged = summary.termination_type == ceres::CONVERGENCE;

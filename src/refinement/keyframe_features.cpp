@@ -68,15 +68,18 @@ cv::Mat insideOf(const cv::Mat& mask)
   return inside;
 }
 
-/// Halved until it is small enough; the factor from its pixels to those given.
+/// Halved until it is small enough; the factor from its pixels to those given. A last odd row or column is cut off, so
+/// that the factor is exact.
 int halve(cv::Mat* image, cv::Mat* mask)
 {
   int factor = 1;
   for (; static_cast<int>(image->total()) > MAX_AREA_PX; factor *= 2)
   {
-    cv::resize(*image, *image, image->size() / 2, 0, 0, cv::INTER_AREA);
+    const cv::Size half = image->size() / 2;
+    const cv::Rect even({ 0, 0 }, half * 2);
+    cv::resize((*image)(even), *image, half, 0, 0, cv::INTER_AREA);
     if (!mask->empty())
-      cv::resize(*mask, *mask, image->size(), 0, 0, cv::INTER_NEAREST);
+      cv::resize((*mask)(even), *mask, half, 0, 0, cv::INTER_NEAREST);
   }
   return factor;
 }
