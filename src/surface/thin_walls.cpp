@@ -11,6 +11,8 @@ constexpr std::size_t NEIGHBOURS = 32;
 constexpr std::size_t BACK_NEIGHBOURS = 8;
 constexpr float OPPOSITE_COSINE = -0.5f;  ///< between the normals of the two sides
 constexpr float SAME_SIDE_COSINE = 0.3f;
+/// How far noise may bring the sides past each other; surfaces that face each other across more are two.
+constexpr float PAST_RATIO = 0.2f;
 constexpr int SMOOTHINGS = 3;  ///< each over the nearest points of the same side
 
 /// Distance to the other side behind a point; `none_m` without one nearer than that.
@@ -27,8 +29,7 @@ float thickness_m(std::size_t i, const std::vector<Eigen::Vector3f>& points,
     const Eigen::Vector3f to_other = points[neighbour.index] - points[i];
     const float behind_m = -to_other.dot(normal);
     const float beside_m = (to_other + behind_m * normal).norm();
-    // Noise may bring the sides past each other.
-    if (behind_m > -0.5f * none_m && beside_m < none_m)
+    if (behind_m > -PAST_RATIO * none_m && beside_m < none_m)
       thinnest_m = std::min(thinnest_m, std::max(behind_m, 0.f));
   }
   return thinnest_m;

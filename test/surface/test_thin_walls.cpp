@@ -47,7 +47,7 @@ TEST(ThinWalls, ThickWallsAndSingleSurfacesStay)
 TEST(ThinWalls, SurfacesThatFaceEachOtherAreNoWall)
 {
   std::vector<Eigen::Vector3f> points, normals;
-  addPlane(0.0025f, -1, &points, &normals);
+  addPlane(0.001f, -1, &points, &normals);
   addPlane(0, 1, &points, &normals);
   for (const float spread_m : spreadOf(points, normals))
     EXPECT_EQ(spread_m, 0);
