@@ -2,6 +2,8 @@
 #include <memory>
 #include <sstream>
 
+#include <Eigen/Geometry>
+
 #include "command.h"
 #include "object_modelling/base/options.h"
 #include "object_modelling/rgbd/noise_model_file.h"
@@ -12,6 +14,8 @@ namespace object_modelling::cli
 {
 namespace
 {
+constexpr double MAX_SPREAD_PX = 0.15;  // half of what a flat scene errs by
+
 struct Arguments
 {
   std::vector<std::string> recordings;
@@ -46,6 +50,7 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
   CommandOutput output;
   std::ostringstream text;
   text << std::fixed << std::setprecision(2);
+  Eigen::AlignedBox2d found;
   Eigen::Vector2d sum_px = Eigen::Vector2d::Zero();
   for (const std::string& recording : arguments.recordings)
   {
@@ -54,10 +59,17 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
     output.json["recordings"].push_back(
         { { "recording", recording }, { "color_offset_px", { found_px.x(), found_px.y() } } });
     sum_px += found_px;
+    found.extend(found_px);
   }
   const Eigen::Vector2d mean_px = sum_px / static_cast<double>(arguments.recordings.size());
+  const double spread_px = found.diagonal().norm();
   if (arguments.recordings.size() > 1)
-    text << "mean      (" << mean_px.x() << ", " << mean_px.y() << ") px\n";
+    text << "mean      (" << mean_px.x() << ", " << mean_px.y() << ") px; recordings differ by up to " << spread_px
+         << " px\n";
+  else
+    text << "note      one recording does not tell how right it is; give two or more\n";
+  if (spread_px > MAX_SPREAD_PX)
+    text << "warning   they do not agree: leave out those of plain or flat scenes, which tell little\n";
   control.checkCancelled();
   model.color_offset_x_px = mean_px.x();
   model.color_offset_y_px = mean_px.y();
@@ -66,6 +78,7 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
   text << "written   " << arguments.output << "\n";
   output.text = text.str();
   output.json["color_offset_px"] = { mean_px.x(), mean_px.y() };
+  output.json["spread_px"] = spread_px;
   output.json["output"] = arguments.output;
   return output;
 }

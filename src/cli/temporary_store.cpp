@@ -13,11 +13,13 @@ namespace
 {
 std::string makeFolder()
 {
-  const std::string root = std::filesystem::temp_directory_path().string();
+  std::error_code error;
+  const std::string root = std::filesystem::temp_directory_path(error).string();
   std::string folder = root + "/object_modelling_XXXXXX";
-  if (!mkdtemp(folder.data()))
-    throw base::Error(base::StatusCode::STORAGE, "cannot make a temporary folder in '" + root + "': " +
-                                                     std::strerror(errno) + "; set TMPDIR to a folder with space");
+  if (error || !mkdtemp(folder.data()))
+    throw base::Error(base::StatusCode::STORAGE, "cannot make a temporary folder in '" + root +
+                                                     "': " + (error ? error.message() : std::strerror(errno)) +
+                                                     "; set TMPDIR to a folder with space");
   return folder;
 }
 }  // namespace

@@ -24,6 +24,10 @@ class CalibrateColorOffsetTest(unittest.TestCase):
         self.assertAlmostEqual(x_px, 0.2, delta=0.2)
         self.assertAlmostEqual(y_px, 0.4, delta=0.2)
 
+    def test_one_recording_alone_is_said_to_be_little(self):
+        finished = run("calibrate_color_offset", HANDHELD, "--output", self.noise + ".3")
+        self.assertIn("give two or more", finished.stdout)
+
     def test_file_keeps_the_rest_of_the_noise_model(self):
         with open(self.noise) as text:
             model = yaml.safe_load(text)
