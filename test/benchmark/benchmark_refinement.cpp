@@ -2,12 +2,11 @@
 // benchmark_refinement --help; docs/refinement.md.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 
-#include <glog/logging.h>
 #include <CLI/CLI.hpp>
 
+#include "benchmark_program.h"
 #include "object_modelling/pipeline/session_jobs.h"
 #include "refinement_table.h"
 
@@ -135,20 +134,12 @@ void run(const Arguments& arguments)
   std::cout << tableHeader();
   for (const std::string& recording : arguments.recordings)
     measureRecording(recording, arguments, &json);
-  if (arguments.json.empty())
-    return;
-  std::ofstream file(arguments.json);
-  file << json.dump(1) << "\n";
-  if (!file.flush())
-    throw base::Error(base::StatusCode::STORAGE, "cannot write '" + arguments.json + "'");
+  benchmark_program::writeJson(arguments.json, json);
 }
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  google::InitGoogleLogging(argv[0]);
-  FLAGS_logtostderr = true;
-  FLAGS_minloglevel = google::GLOG_WARNING;
   CLI::App app("Accuracy, time and memory of keyframe refinement on TUM-style recordings.");
   app.footer(
       "Errors are those of the keyframes after rigid alignment with groundtruth.txt, before -> after. A recording "
@@ -181,19 +172,5 @@ int main(int argc, char** argv)
   app.add_option("--out", arguments.out, "Folder for the refined keyframe poses, TUM format")
       ->check(CLI::ExistingDirectory);
   app.add_option("--json", arguments.json, "Also write all figures to this file");
-  try
-  {
-    app.parse(argc, argv);
-    run(arguments);
-  }
-  catch (const CLI::ParseError& error)
-  {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  catch (const base::Error& error)
-  {
-    std::cerr << "benchmark_refinement: " << error.what() << std::endl;
-    return 1;
-  }
-  return 0;
+  return benchmark_program::run(app, argc, argv, [&] { run(arguments); });
 }

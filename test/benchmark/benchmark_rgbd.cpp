@@ -53,14 +53,22 @@ rgbd::RawFrame rawFrame()
 
 void buildFrame(benchmark::State& state)
 {
-  rgbd::FrameBuilder builder;
+  rgbd::FrameBuilderOptions options;
+  if (state.range(1) != 0)
+    options.noise_model.color_offset_x_px = 0.3;
+  rgbd::FrameBuilder builder(options);
   rgbd::RawFrame raw = rawFrame();
   if (state.range(0) != 0)
     raw.camera.distortion = { 0.2624, -0.9531, -0.0054, 0.0026, 1.1633 };
   for (auto _ : state)
     benchmark::DoNotOptimize(builder.build(raw));
 }
-BENCHMARK(buildFrame)->ArgName("distorted")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(buildFrame)
+    ->ArgNames({ "distorted", "color_offset" })
+    ->Args({ 0, 0 })
+    ->Args({ 0, 1 })
+    ->Args({ 1, 0 })
+    ->Unit(benchmark::kMillisecond);
 
 void depthInMetres(benchmark::State& state)
 {

@@ -2,16 +2,15 @@
 // benchmark_session --help; docs/measurements.md.
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <map>
 #include <memory>
 
-#include <glog/logging.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "benchmark_program.h"
 #include "object_modelling/pipeline/build_object.h"
 #include "object_modelling/pipeline/session_jobs.h"
 #include "object_modelling/pipeline/session_refinement.h"
@@ -149,20 +148,12 @@ void run(const Arguments& arguments)
     std::cout << std::setprecision(0) << " " << cost.peak_mb << " |\n" << std::flush;
     json.push_back({ { "keyframes", cost.keyframes }, { "stage_s", cost.stage_s }, { "peak_mb", cost.peak_mb } });
   }
-  if (arguments.json.empty())
-    return;
-  std::ofstream file(arguments.json);
-  file << json.dump(1) << "\n";
-  if (!file.flush())
-    throw base::Error(base::StatusCode::STORAGE, "cannot write '" + arguments.json + "'");
+  benchmark_program::writeJson(arguments.json, json);
 }
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  google::InitGoogleLogging(argv[0]);
-  FLAGS_logtostderr = true;
-  FLAGS_minloglevel = google::GLOG_WARNING;
   CLI::App app("Time of every stage from tracked keyframes to the model, and memory, by length of the session.");
   app.footer("Keyframes are chosen evenly from those tracked. Exit codes: 1 failed, 2 wrong usage.");
   Arguments arguments;
@@ -175,19 +166,5 @@ int main(int argc, char** argv)
       ->capture_default_str();
   app.add_option("--repeat", arguments.repeat, "Runs; times are their medians")->check(CLI::PositiveNumber);
   app.add_option("--json", arguments.json, "Also write the figures to this file (plot_session.py)");
-  try
-  {
-    app.parse(argc, argv);
-    run(arguments);
-  }
-  catch (const CLI::ParseError& error)
-  {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  catch (const base::Error& error)
-  {
-    std::cerr << "benchmark_session: " << error.what() << std::endl;
-    return 1;
-  }
-  return 0;
+  return benchmark_program::run(app, argc, argv, [&] { run(arguments); });
 }

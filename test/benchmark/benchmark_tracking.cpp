@@ -2,13 +2,12 @@
 // stage, memory. benchmark_tracking --help; docs/tracking.md.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 
-#include <glog/logging.h>
 #include <yaml-cpp/yaml.h>
 #include <CLI/CLI.hpp>
 
+#include "benchmark_program.h"
 #include "object_modelling/base/status.h"
 #include "object_modelling/rgbd/noise_model_file.h"
 #include "tracking_report.h"
@@ -122,20 +121,12 @@ void run(const Arguments& arguments)
     json["recordings"].push_back(toJson(reports.back()));
   }
   std::cout << toTable(reports);
-  if (arguments.json.empty())
-    return;
-  std::ofstream file(arguments.json);
-  file << json.dump(1) << "\n";
-  if (!file.flush())
-    throw base::Error(base::StatusCode::STORAGE, "cannot write '" + arguments.json + "'");
+  benchmark_program::writeJson(arguments.json, json);
 }
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  google::InitGoogleLogging(argv[0]);
-  FLAGS_logtostderr = true;
-  FLAGS_minloglevel = google::GLOG_WARNING;
   CLI::App app("Accuracy, time and memory of the camera tracker on TUM-style recordings.");
   app.footer(
       "Times are of the tracker alone; start it under 'taskset -c 0' to measure one core. Errors are those of the TUM\n"
@@ -158,21 +149,11 @@ int main(int argc, char** argv)
   app.add_option("--out", arguments.out, "Folder for trajectories")->check(CLI::ExistingDirectory);
   app.add_option("--json", arguments.json, "Also write all figures, and series by frame, to this file");
   app.add_flag("--verbose", arguments.verbose, "One line per frame");
-  try
-  {
-    app.parse(argc, argv);
-    if (!arguments.noise_model.empty())
-      arguments.run.noise_model = rgbd::loadNoiseModel(arguments.noise_model);
-    run(arguments);
-  }
-  catch (const CLI::ParseError& error)
-  {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  catch (const base::Error& error)
-  {
-    std::cerr << "benchmark_tracking: " << error.what() << std::endl;
-    return 1;
-  }
-  return 0;
+  return benchmark_program::run(app, argc, argv,
+                                [&]
+                                {
+                                  if (!arguments.noise_model.empty())
+                                    arguments.run.noise_model = rgbd::loadNoiseModel(arguments.noise_model);
+                                  run(arguments);
+                                });
 }

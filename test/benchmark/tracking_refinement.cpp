@@ -14,6 +14,7 @@ Refined refineRun(const Run& run, const RunOptions& options)
   keyframes::Session session;
   session.id = "benchmark";
   session.reference_is_object = options.object_reference;
+  session.calibration.noise_model = options.noise_model;
   store->createSession(session);
   for (const rgbd::Keyframe& keyframe : run.keyframes)
     store->addKeyframe(session.id, keyframe);
@@ -21,7 +22,6 @@ Refined refineRun(const Run& run, const RunOptions& options)
   const double wall_start_ms = wallTime_ms(), cpu_start_ms = cpuTime_ms();
   refinement::BundleAdjustmentOptions bundle;
   bundle.seed = options.seed;
-  bundle.calibrate_color_offset = !options.noise_model.shiftsColor();  // as the pipeline has it
   base::JobControl control;
   const refinement::BundleAdjustmentResult result = pipeline::refineSession(*store, session.id, bundle, control);
   refined.links = result.links.size();
