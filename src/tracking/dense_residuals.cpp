@@ -154,7 +154,7 @@ void observe(const DensePoints& points, const DenseLevel& level, const Eigen::Is
     s.textured = point.textured;
     if (s.textured)
     {
-      // The intensity alone for now; the residual follows when the exposures are known.
+      // What the frame shows; compensateExposure() makes a residual of it.
       sampleIntensity(level.gray, u, v, &s.intensity_residual, &s.gradient_x, &s.gradient_y);
       s.reference_intensity = point.intensity;
     }

@@ -95,6 +95,17 @@ TEST_F(Wall, MissingDepthHasNoVote)
   EXPECT_EQ(votes.seen_through + votes.same, 0);
 }
 
+TEST_F(Wall, OfManyViewsSomeHaveAVoteEvenly)
+{
+  keyframes_.resize(200, keyframes_.front());
+  EXPECT_EQ(vote({ 0, 0, 1 }).same, 64);
+  for (std::size_t k = 100; k < keyframes_.size(); ++k)
+    keyframes_[k].frame.depth_m = cv::Mat(480, 640, CV_32FC1, cv::Scalar(2));
+  const Votes votes = vote({ 0, 0, 1 });
+  EXPECT_EQ(votes.same, 32);
+  EXPECT_EQ(votes.seen_through, 32);
+}
+
 TEST(Votes, OneWrongViewDoesNotOutvoteTwo)
 {
   Votes votes;

@@ -95,10 +95,11 @@ TEST(FrameBuilder, TakesTheBiasOffTheDepth)
 
 TEST(FrameBuilder, ShiftsColourOntoDepth)
 {
-  for (const bool distorted : { false, true })
+  for (const std::vector<double>& distortion :
+       std::vector<std::vector<double>>{ {}, { 0, 0, 0, 0, 0 }, { 1e-6, 0, 0, 0, 0 } })
   {
     RawFrame raw = goodFrame();
-    raw.camera.distortion = { distorted ? 1e-6 : 0.0, 0, 0, 0, 0 };
+    raw.camera.distortion = distortion;
     raw.color = cv::Mat(480, 640, CV_8UC1);
     for (int v = 0; v < 480; ++v)
       for (int u = 0; u < 640; ++u)
