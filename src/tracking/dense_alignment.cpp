@@ -11,7 +11,8 @@ namespace object_modelling::tracking
 {
 namespace
 {
-constexpr double CONVERGED_STEP = 1e-4;  // m and rad; the least squares with features goes on from there
+constexpr double CONVERGED_STEP_SIGMAS = 0.5;  // of the estimate; the least squares with features goes on from there
+constexpr double CONVERGED_STEP = 1e-4;        // m and rad at the finest level, however well it is known
 constexpr std::size_t MIN_POINTS = 60;
 // Errors of the directions along which residuals are measured. They let a surface slide along itself, and yet count as
 // knowledge of where it is.
@@ -210,7 +211,8 @@ DenseAlignment alignDense(const DenseReference& reference, const Eigen::Isometry
       if (!step.allFinite())
         return without_noise(i);
       const double coarse = level.step / static_cast<double>(frame.levels()[0].step);
-      small_step = step.cwiseAbs().maxCoeff() < CONVERGED_STEP * coarse * coarse;
+      small_step = step.cwiseAbs().maxCoeff() < CONVERGED_STEP * coarse * coarse ||
+                   step.dot(equations.A * step) < CONVERGED_STEP_SIGMAS * CONVERGED_STEP_SIGMAS;
       // The term stands for the pose at which it was evaluated, so the last step is left to whoever uses the term.
       if (!small_step || i > options.finest_level)
         T_camera_session = geometry::normalised(geometry::isometryFromVector(step) * T_camera_session);

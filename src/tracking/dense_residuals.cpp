@@ -16,15 +16,23 @@ constexpr float AGREEMENT_RATIO = 0.005F;  // of depth, for what calibration and
 constexpr float MIN_FACING_COSINE = 0.15F;
 constexpr int SCALE_SAMPLES = 3;  // every so many residuals tell the robust scale well enough
 
-/// Depth at a sub-pixel position where its neighbours are one surface; NaN elsewhere.
-float interpolateDepth_m(const cv::Mat& depth_m, float u, float v)
+/// A sub-pixel position: the pixel above and to the left of it, and the rest.
+struct SubPixel
 {
-  const int iu = static_cast<int>(u);
-  const int iv = static_cast<int>(v);
-  const float a = u - static_cast<float>(iu);
-  const float b = v - static_cast<float>(iv);
-  const float* upper = depth_m.ptr<float>(iv) + iu;
-  const float* lower = depth_m.ptr<float>(iv + 1) + iu;
+  SubPixel(float u, float v)
+      : iu(static_cast<int>(u)), iv(static_cast<int>(v)), a(u - static_cast<float>(iu)), b(v - static_cast<float>(iv))
+  {
+  }
+  int iu, iv;
+  float a, b;
+};
+
+/// Depth where its neighbours are one surface; NaN elsewhere.
+float interpolateDepth_m(const cv::Mat& depth_m, const SubPixel& at)
+{
+  const float a = at.a, b = at.b;
+  const float* upper = depth_m.ptr<float>(at.iv) + at.iu;
+  const float* lower = depth_m.ptr<float>(at.iv + 1) + at.iu;
   const float low = std::min(std::min(upper[0], upper[1]), std::min(lower[0], lower[1]));
   const float high = std::max(std::max(upper[0], upper[1]), std::max(lower[0], lower[1]));
   const float z_m = (1 - b) * ((1 - a) * upper[0] + a * upper[1]) + b * ((1 - a) * lower[0] + a * lower[1]);
@@ -32,18 +40,15 @@ float interpolateDepth_m(const cv::Mat& depth_m, float u, float v)
 }
 
 /// Bilinear intensity and the central differences at it.
-void sampleIntensity(const cv::Mat& gray, float u, float v, float* value, float* gradient_x, float* gradient_y)
+void sampleIntensity(const cv::Mat& gray, const SubPixel& at, float* value, float* gradient_x, float* gradient_y)
 {
-  const int iu = static_cast<int>(u);
-  const int iv = static_cast<int>(v);
-  const float a = u - static_cast<float>(iu);
-  const float b = v - static_cast<float>(iv);
-  const std::uint8_t* row0 = gray.ptr<std::uint8_t>(iv - 1) + iu;
+  const float a = at.a, b = at.b;
+  const std::uint8_t* row0 = gray.ptr<std::uint8_t>(at.iv - 1) + at.iu;
   const std::uint8_t* row1 = row0 + gray.step;
   const std::uint8_t* row2 = row1 + gray.step;
   const std::uint8_t* row3 = row2 + gray.step;
-  const auto across = [a](const std::uint8_t* row, int at)
-  { return (1 - a) * static_cast<float>(row[at]) + a * static_cast<float>(row[at + 1]); };
+  const auto across = [a](const std::uint8_t* row, int x)
+  { return (1 - a) * static_cast<float>(row[x]) + a * static_cast<float>(row[x + 1]); };
   const float middle1 = across(row1, 0);
   const float middle2 = across(row2, 0);
   *value = (1 - b) * middle1 + b * middle2;
@@ -118,35 +123,37 @@ void observe(const DensePoints& points, const DenseLevel& level, const Eigen::Is
   depth_sizes.reserve(points.all.size() / SCALE_SAMPLES + 1);
   for (const DensePoint& point : points.all)
   {
-    DenseResidual s;
-    s.q = R * point.p + t;
-    if (s.q.z() < MIN_DEPTH_M)
+    const Eigen::Vector3f q = R * point.p + t;
+    if (q.z() < MIN_DEPTH_M)
       continue;
-    const float inverse_z = 1 / s.q.z();
-    const float u = level.fx * s.q.x() * inverse_z + level.cx;
-    const float v = level.fy * s.q.y() * inverse_z + level.cy;
+    const float inverse_z = 1 / q.z();
+    const float u = level.fx * q.x() * inverse_z + level.cx;
+    const float v = level.fy * q.y() * inverse_z + level.cy;
     if (!(u >= 1 && v >= 1 && u < max_u && v < max_v))
       continue;
     if (!level.mask.empty() && level.mask.at<std::uint8_t>(cvRound(v), cvRound(u)) == 0)
       continue;
-    const float depth_m = interpolateDepth_m(level.depth_m, u, v);
-    const float step_m = s.q.z() - depth_m;
-    if (step_m > MAX_DEPTH_STEP_RATIO * s.q.z())
+    const SubPixel at(u, v);
+    const float depth_m = interpolateDepth_m(level.depth_m, at);
+    const float step_m = q.z() - depth_m;
+    if (step_m > MAX_DEPTH_STEP_RATIO * q.z())
       continue;  // something is in front
     ++residuals->in_view;
+    DenseResidual& s = residuals->all.emplace_back();
+    s.q = q;
     if (!std::isnan(step_m) && !point.n.isZero())
     {
       s.normal = R * point.n;
       // Both points lie on one ray: their distance along it, seen along the normal.
-      const float foreshortening = -s.normal.dot(s.q) * inverse_z;
+      const float foreshortening = -s.normal.dot(q) * inverse_z;
       if (foreshortening > MIN_FACING_COSINE)
       {
         ++residuals->with_depth;
-        const float sigma_m = averagedDepthSigma_m(level.noise_model, s.q.z());
+        const float sigma_m = averagedDepthSigma_m(level.noise_model, q.z());
         s.depth_residual = -foreshortening * step_m;
-        residuals->agreeing += std::abs(step_m) < AGREEMENT_SIGMAS * sigma_m + AGREEMENT_RATIO * s.q.z();
+        residuals->agreeing += std::abs(step_m) < AGREEMENT_SIGMAS * sigma_m + AGREEMENT_RATIO * q.z();
         s.depth_sigma = foreshortening * sigma_m;
-        s.has_depth = std::abs(step_m) <= MAX_DEPTH_STEP_RATIO * s.q.z();
+        s.has_depth = std::abs(step_m) <= MAX_DEPTH_STEP_RATIO * q.z();
         if (s.has_depth && residuals->with_depth % SCALE_SAMPLES == 0)
           depth_sizes.push_back(std::abs(s.depth_residual / s.depth_sigma));
       }
@@ -155,11 +162,11 @@ void observe(const DensePoints& points, const DenseLevel& level, const Eigen::Is
     if (s.textured)
     {
       // What the frame shows; compensateExposure() makes a residual of it.
-      sampleIntensity(level.gray, u, v, &s.intensity_residual, &s.gradient_x, &s.gradient_y);
+      sampleIntensity(level.gray, at, &s.intensity_residual, &s.gradient_x, &s.gradient_y);
       s.reference_intensity = point.intensity;
     }
-    if (s.has_depth || s.textured)
-      residuals->all.push_back(s);
+    if (!s.has_depth && !s.textured)
+      residuals->all.pop_back();
   }
   residuals->correlation = compensateExposure(&residuals->all);
   for (std::size_t i = 0; i < residuals->all.size(); i += SCALE_SAMPLES)

@@ -10,7 +10,7 @@ namespace object_modelling::tracking
 struct PatchRefinementOptions
 {
   int max_iterations = 10;
-  double convergence_px = 0.04;      ///< of the step, at the level's resolution
+  double convergence_px = 0.06;      ///< of the step, at the level's resolution
   double max_displacement_px = 5.0;  ///< from the start, at the level's resolution; beyond it is another feature
   double min_correlation = 0.75;     ///< normalised cross-correlation after convergence
   double coarse_start_px = 2.0;      ///< expected error of the start above which the half-resolution level goes first
