@@ -2,7 +2,7 @@
 add_message_files(FILES
   Status.msg Plane.msg SensorNoiseModel.msg SensorCalibration.msg
   Observation.msg Keyframe.msg ObjectMask.msg PoseUpdate.msg Session.msg StoreState.msg TrackingState.msg
-  Progress.msg ObjectHypothesis.msg Hypotheses.msg SessionPlacement.msg AlignmentEdge.msg IcpResidual.msg KeyframeResidual.msg
+  Progress.msg ObjectHypothesis.msg Hypotheses.msg SessionPlacement.msg AlignmentCandidate.msg AlignmentEdge.msg IcpResidual.msg KeyframeResidual.msg
   KeyframeLink.msg SessionRefinement.msg StageTime.msg ObjectSummary.msg BuiltObject.msg ManagerState.msg)
 add_service_files(FILES
   StartTracking.srv StopTracking.srv ResetTracking.srv

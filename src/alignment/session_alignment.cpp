@@ -1,30 +1,91 @@
 #include "object_modelling/alignment/session_alignment.h"
 
+#include <algorithm>
+
 #include "object_modelling/base/status.h"
+#include "session_graph.h"
 
 namespace object_modelling::alignment
 {
-AlignmentResult alignSessions(const std::vector<keyframes::Session>& sessions, base::JobControl& control)
+namespace
 {
-  control.report("align", 0, sessions.size());
+std::string joined(const std::vector<std::string>& names)
+{
+  std::string text;
+  for (const std::string& name : names)
+    text += (text.empty() ? "'" : ", '") + name + "'";
+  return text;
+}
+
+std::string reasonsOf(const AlignmentResult& result)
+{
+  std::string text;
+  for (const AlignmentEdge& edge : result.edges)
+  {
+    const auto out = [&](const std::string& id)
+    { return std::find(result.left_out.begin(), result.left_out.end(), id) != result.left_out.end(); };
+    if (!edge.reason.empty() && (result.placements.empty() || out(edge.session_a) || out(edge.session_b)))
+      text += "; " + edge.session_a + " and " + edge.session_b + ": " + edge.reason;
+  }
+  return text;
+}
+
+AlignmentEdge alignOrTakeOver(const PartialModel& a, const PartialModel& b,
+                              const std::vector<AlignmentEdge>& known_edges, const PairAlignmentOptions& options,
+                              base::JobControl& control)
+{
+  for (const AlignmentEdge& known : known_edges)
+    if (known.session_a == a.session_id && known.session_b == b.session_id)
+      return known;
+  const PairAlignment found = alignPair(a, b, options, control);
+  return { a.session_id, b.session_id, found.accepted, false, found.reason, found.candidates };
+}
+}  // namespace
+
+AlignmentResult alignSessions(const std::vector<PartialModel>& parts, const std::vector<AlignmentEdge>& known_edges,
+                              const PairAlignmentOptions& options, base::JobControl& control)
+{
   AlignmentResult result;
-  if (sessions.empty())
+  if (parts.empty())
   {
     result.status = { base::StatusCode::INVALID_ARGUMENT, "no sessions to align; name at least one" };
     return result;
   }
-  if (sessions.size() > 1)
+  std::vector<std::string> ids;
+  for (const PartialModel& part : parts)
   {
-    std::string names;
-    for (const keyframes::Session& session : sessions)
-      names += (names.empty() ? "'" : ", '") + session.id + "'";
-    result.status = { base::StatusCode::NO_RESULT, std::to_string(sessions.size()) + " sessions given (" + names +
-                                                       "), and no relation between two sessions can be measured yet; "
-                                                       "build the object from one of them" };
-    return result;
+    if (std::find(ids.begin(), ids.end(), part.session_id) != ids.end())
+    {
+      result.status = { base::StatusCode::INVALID_ARGUMENT,
+                        "session '" + part.session_id + "' is named twice; name each once" };
+      return result;
+    }
+    ids.push_back(part.session_id);
   }
-  result.placements.push_back({ sessions.front().id, Eigen::Isometry3d::Identity() });
-  control.report("align", 1, 1);
+  const std::size_t pairs = parts.size() * (parts.size() - 1) / 2;
+  control.report("align", 0, std::max<std::size_t>(1, pairs));
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (std::size_t j = i + 1; j < parts.size(); ++j)
+    {
+      result.edges.push_back(alignOrTakeOver(parts[i], parts[j], known_edges, options, control));
+      control.report("align", result.edges.size(), pairs);
+    }
+  result.placements = placeByEdges(ids, &result.edges);
+  for (const std::string& id : ids)
+    if (std::none_of(result.placements.begin(), result.placements.end(),
+                     [&](const SessionPlacement& placed) { return placed.session_id == id; }))
+      result.left_out.push_back(id);
+  if (parts.size() > 1 && result.placements.size() < 2)
+  {
+    result.placements.clear();
+    result.left_out = ids;
+    result.status = { base::StatusCode::NO_RESULT,
+                      "sessions " + joined(ids) + " could not be aligned" + reasonsOf(result) };
+  }
+  else if (!result.left_out.empty())
+    result.status = { base::StatusCode::OK, "left out, since they connect to none of the others: sessions " +
+                                                joined(result.left_out) + reasonsOf(result) };
+  control.report("align", std::max<std::size_t>(1, pairs), std::max<std::size_t>(1, pairs));
   return result;
 }
 

@@ -25,6 +25,7 @@ using Command = std::function<CommandOutput(base::JobControl& control)>;
 
 /// Each adds one subcommand to `app`, and sets `*chosen` when that one has been parsed.
 void addTrackCommand(CLI::App& app, Command* chosen);
+void addAlignCommand(CLI::App& app, Command* chosen);
 void addModelCommand(CLI::App& app, Command* chosen);
 void addCalibrateNoiseCommand(CLI::App& app, Command* chosen);
 void addCalibrateColorOffsetCommand(CLI::App& app, Command* chosen);

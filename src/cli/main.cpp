@@ -96,6 +96,7 @@ int main(int argc, char** argv)
   cli::Command command;
   cli::addTrackCommand(app, &command);
   cli::addModelCommand(app, &command);
+  cli::addAlignCommand(app, &command);
   cli::addCalibrateNoiseCommand(app, &command);
   cli::addCalibrateColorOffsetCommand(app, &command);
   cli::addInfoCommand(app, &command);

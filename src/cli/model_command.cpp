@@ -88,8 +88,13 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
   for (const std::string& recording : arguments.recordings)
     session_ids.push_back(processRecording(recording, arguments, store, control, &output));
 
-  const alignment::AlignmentResult aligned = pipeline::alignSessions(store, session_ids, control);
+  const alignment::AlignmentResult aligned = pipeline::alignSessions(store, session_ids, {}, control);
   throwUnlessOk("alignment", aligned.status);
+  if (session_ids.size() > 1)
+  {
+    output.text += toText(aligned);
+    output.json["alignment"] = toJson(aligned);
+  }
 
   options.replace = arguments.replace;
   options.fusion.resolution_m = arguments.resolution_mm / 1000;

@@ -20,6 +20,7 @@ nlohmann::json toJson(const refinement::MultiViewIcpResult& result);
 /// As of bundle adjustment where that took part, with what multi-view ICP says under "multi_view_icp".
 nlohmann::json toJson(const pipeline::SessionRefinement& refined);
 nlohmann::json toJson(const pipeline::SegmentReport& report);
+nlohmann::json toJson(const alignment::AlignmentResult& result);
 nlohmann::json toJson(const pipeline::BuildReport& report);
 
 std::string toText(const pipeline::RecordReport& report);
@@ -27,6 +28,7 @@ std::string toText(const refinement::BundleAdjustmentResult& result);
 std::string toText(const refinement::MultiViewIcpResult& result);
 std::string toText(const pipeline::SessionRefinement& refined);
 std::string toText(const pipeline::SegmentReport& report);
+std::string toText(const alignment::AlignmentResult& result);
 std::string toText(const pipeline::BuildReport& report);
 
 /// Value below which `share` in [0, 1] of the values lie; 0 for none.

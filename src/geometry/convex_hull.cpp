@@ -1,4 +1,4 @@
-#include "convex_hull.h"
+#include "object_modelling/geometry/convex_hull.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <opencv2/imgproc.hpp>
 
-#include "convex_hull.h"
+#include "object_modelling/geometry/convex_hull.h"
 #include "object_modelling/base/status.h"
 
 namespace object_modelling::geometry

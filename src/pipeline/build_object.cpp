@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 
+#include "joint_refinement.h"
 #include "model_frame.h"
 #include "object_modelling/base/options.h"
 #include "object_modelling/pipeline/report_maker.h"
@@ -39,7 +40,7 @@ struct Views
   std::vector<keyframes::Session> sessions;
   std::vector<rgbd::Keyframe> keyframes;  // those that see the object; T_session_camera holds T_reference_camera
   std::vector<ViewOrigin> origins;        // of each of them
-  std::optional<geometry::Plane> support_plane_reference;
+  std::vector<geometry::Plane> support_planes_reference;  // of each session that has one
 };
 
 base::Status loadViews(keyframes::SessionStore& store, const std::vector<alignment::SessionPlacement>& placements,
@@ -69,9 +70,8 @@ base::Status loadViews(keyframes::SessionStore& store, const std::vector<alignme
       return { base::StatusCode::FAILED_PRECONDITION,
                "none of the " + std::to_string(ids.size()) + " keyframes of session '" + placement.session_id +
                    "' has an object mask: select the object (segmenter) before building" };
-    const std::optional<geometry::Plane>& plane = views->sessions.back().support_plane_session;
-    if (!views->support_plane_reference && plane)
-      views->support_plane_reference = geometry::transformed(placement.T_reference_session, *plane);
+    if (const std::optional<geometry::Plane>& plane = views->sessions.back().support_plane_session)
+      views->support_planes_reference.push_back(geometry::transformed(placement.T_reference_session, *plane));
   }
   return {};
 }
@@ -133,10 +133,16 @@ surface::TextureResult textured(const geometry::TriangleMesh& mesh, const std::v
   }
 }
 
+std::optional<geometry::Plane> firstSupportOf(const Views& views)
+{
+  return views.support_planes_reference.empty() ? std::nullopt
+                                                : std::make_optional(views.support_planes_reference.front());
+}
+
 /// What the object of a single session stood on. Of several, each saw what another one stood on.
 std::optional<geometry::Plane> supportOf(const Views& views)
 {
-  return views.sessions.size() == 1 ? views.support_plane_reference : std::nullopt;
+  return views.sessions.size() == 1 ? firstSupportOf(views) : std::nullopt;
 }
 
 /// Everything of the model but its geometry.
@@ -146,10 +152,10 @@ void describe(const Views& views, const std::vector<alignment::SessionPlacement>
 {
   model->box_model = box_reference;
   model->box_model.T_frame_box = T_model_reference * box_reference.T_frame_box;
-  if (views.support_plane_reference)
+  for (const geometry::Plane& plane : views.support_planes_reference)
   {
-    // The resting pose of the recording: model frame lifted to stand on z = 0.
-    const geometry::Plane plane_model = geometry::transformed(T_model_reference, *views.support_plane_reference);
+    // A resting pose of the recordings: model frame lifted to stand on z = 0.
+    const geometry::Plane plane_model = geometry::transformed(T_model_reference, plane);
     Eigen::Isometry3d T_support_model = Eigen::Isometry3d::Identity();
     T_support_model.linear() =
         Eigen::Quaterniond::FromTwoVectors(plane_model.normal, Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -235,6 +241,9 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
     }
   }
   timer.finish("load");
+  const std::string unrefined =
+      refineJointly(placements, meanColorOffset_px(views.sessions), &views.keyframes, control);
+  timer.finish("refine");
 
   fusion::CloudFusionOptions fusion_options = options.fusion;
   surface::TextureOptions texture_options = options.texture;
@@ -251,7 +260,7 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
   if (!report.status.ok())
     return report;
   // Of the mesh: a few fused points that stand out would widen it.
-  const geometry::OrientedBox box_reference = objectBox(surface.mesh.vertices, views.support_plane_reference);
+  const geometry::OrientedBox box_reference = objectBox(surface.mesh.vertices, firstSupportOf(views));
   if (!T_model_reference)
     T_model_reference = box_reference.T_frame_box.inverse();
   transform(*T_model_reference, &fused.cloud);
@@ -294,7 +303,7 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
                                           timer.finish("report");
                                         });
   // What went wrong after the mesh does not cost the model, but whoever built it is told.
-  for (const std::string& warning : { surface.warning, texture.status.message })
+  for (const std::string& warning : { unrefined, surface.warning, texture.status.message })
     if (!warning.empty())
       report.status.message += (report.status.message.empty() ? "" : "; ") + warning;
   report.preview_path = report.object_folder + "/preview.png";

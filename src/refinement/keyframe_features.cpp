@@ -1,4 +1,4 @@
-#include "keyframe_features.h"
+#include "object_modelling/refinement/keyframe_features.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "keyframe_features.h"
+#include "object_modelling/refinement/keyframe_features.h"
 #include "link_verification.h"
 #include "object_modelling/base/options.h"
 #include "pair_selection.h"

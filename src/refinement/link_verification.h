@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "keyframe_features.h"
+#include "object_modelling/refinement/keyframe_features.h"
 #include "object_modelling/refinement/keyframe_linker.h"
 
 namespace object_modelling::refinement

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "keyframe_features.h"
+#include "object_modelling/refinement/keyframe_features.h"
 #include "object_modelling/refinement/keyframe_linker.h"
 
 namespace object_modelling::refinement

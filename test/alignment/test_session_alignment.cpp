@@ -6,17 +6,31 @@ namespace object_modelling::alignment
 {
 namespace
 {
-keyframes::Session session(const std::string& id)
+PartialModel part(const std::string& id)
 {
-  keyframes::Session result;
-  result.id = id;
+  PartialModel result;
+  result.session_id = id;
   return result;
+}
+
+AlignmentEdge edge(const std::string& a, const std::string& b, const Eigen::Vector3d& t, double probability,
+                   bool accepted = true)
+{
+  PairCandidate candidate;
+  candidate.T_a_b.translation() = t;
+  candidate.quality.probability = probability;
+  return { a, b, accepted, false, accepted ? "" : "overlap 3 % below 12 %", { candidate } };
+}
+
+AlignmentResult align(const std::vector<PartialModel>& parts, const std::vector<AlignmentEdge>& edges)
+{
+  base::JobControl control;
+  return alignSessions(parts, edges, {}, control);
 }
 
 TEST(SessionAlignment, PlacesOneSessionAtIdentity)
 {
-  base::JobControl control;
-  const AlignmentResult result = alignSessions({ session("mug_1") }, control);
+  const AlignmentResult result = align({ part("mug_1") }, {});
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   ASSERT_EQ(result.placements.size(), 1u);
   EXPECT_EQ(result.placements[0].session_id, "mug_1");
@@ -24,26 +38,81 @@ TEST(SessionAlignment, PlacesOneSessionAtIdentity)
   EXPECT_TRUE(result.edges.empty());
 }
 
-TEST(SessionAlignment, RefusesSeveralSessionsAndNamesThem)
+TEST(SessionAlignment, PlacesByTheMostProbableEdges)
 {
-  base::JobControl control;
-  const AlignmentResult result = alignSessions({ session("mug_1"), session("mug_2") }, control);
+  // The direct edge from a to c is off by 4 mm, which the cycle allows, and is the least probable.
+  const AlignmentResult result = align(
+      { part("a"), part("b"), part("c") },
+      { edge("a", "b", { 1, 0, 0 }, 0.9), edge("a", "c", { 1.004, 2, 0 }, 0.6), edge("b", "c", { 0, 2, 0 }, 0.8) });
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_TRUE(result.status.message.empty()) << result.status.message;
+  ASSERT_EQ(result.placements.size(), 3u);
+  EXPECT_TRUE(result.placements[2].T_reference_session.translation().isApprox(Eigen::Vector3d(1, 2, 0)));
+  EXPECT_TRUE(result.edges[0].used);
+  EXPECT_FALSE(result.edges[1].used);
+  EXPECT_TRUE(result.edges[2].used);
+}
+
+TEST(SessionAlignment, LeavesOutWhatConnectsToNothingAndSaysWhy)
+{
+  const AlignmentResult result = align({ part("a"), part("b"), part("c") },
+                                       { edge("a", "b", { 1, 0, 0 }, 0.9), edge("a", "c", { 1, 0, 0 }, 0.1, false),
+                                         edge("b", "c", { 1, 0, 0 }, 0.1, false) });
+  EXPECT_TRUE(result.status.ok());
+  EXPECT_EQ(result.placements.size(), 2u);
+  EXPECT_EQ(result.left_out, std::vector<std::string>{ "c" });
+  EXPECT_NE(result.status.message.find("'c'"), std::string::npos) << result.status.message;
+  EXPECT_NE(result.status.message.find("overlap 3 % below 12 %"), std::string::npos) << result.status.message;
+}
+
+TEST(SessionAlignment, TakesTheLargestConnectedPart)
+{
+  const AlignmentResult result = align({ part("a"), part("b"), part("c") },
+                                       { edge("a", "b", { 1, 0, 0 }, 0.1, false),
+                                         edge("a", "c", { 1, 0, 0 }, 0.1, false), edge("b", "c", { 3, 0, 0 }, 0.9) });
+  ASSERT_EQ(result.placements.size(), 2u);
+  EXPECT_EQ(result.placements[0].session_id, "b");
+  EXPECT_TRUE(result.placements[0].T_reference_session.isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_EQ(result.left_out, std::vector<std::string>{ "a" });
+}
+
+TEST(SessionAlignment, RefusesWhereNoTwoConnect)
+{
+  const AlignmentResult result = align({ part("a"), part("b") }, { edge("a", "b", { 1, 0, 0 }, 0.1, false) });
   EXPECT_EQ(result.status.code, base::StatusCode::NO_RESULT);
-  EXPECT_NE(result.status.message.find("'mug_1', 'mug_2'"), std::string::npos) << result.status.message;
+  EXPECT_NE(result.status.message.find("overlap 3 % below 12 %"), std::string::npos) << result.status.message;
   EXPECT_TRUE(result.placements.empty()) << "unaligned sessions must not be placed";
 }
 
-TEST(SessionAlignment, RefusesNoSession)
+TEST(SessionAlignment, LeavesOutTheEdgeThatContradictsCertainOnes)
 {
-  base::JobControl control;
-  EXPECT_EQ(alignSessions({}, control).status.code, base::StatusCode::INVALID_ARGUMENT);
+  const AlignmentResult result =
+      align({ part("a"), part("b"), part("c") },
+            { edge("a", "b", { 1, 0, 0 }, 0.99), edge("a", "c", { 5, 0, 0 }, 0.6), edge("b", "c", { 0, 2, 0 }, 0.98) });
+  EXPECT_EQ(result.placements.size(), 3u);
+  EXPECT_NE(result.edges[1].reason.find("contradicts"), std::string::npos) << result.edges[1].reason;
+}
+
+TEST(SessionAlignment, DoesNotTrustAWeakEdgeThatAnotherContradicts)
+{
+  const AlignmentResult result =
+      align({ part("a"), part("b"), part("c") },
+            { edge("a", "b", { 1, 0, 0 }, 0.99), edge("a", "c", { 5, 0, 0 }, 0.6), edge("b", "c", { 0, 2, 0 }, 0.7) });
+  EXPECT_EQ(result.placements.size(), 2u) << "one of the two edges to c is wrong, and neither is certain";
+  EXPECT_EQ(result.left_out, std::vector<std::string>{ "c" });
+}
+
+TEST(SessionAlignment, RefusesNoSessionAndOneTwice)
+{
+  EXPECT_EQ(align({}, {}).status.code, base::StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(align({ part("a"), part("a") }, {}).status.code, base::StatusCode::INVALID_ARGUMENT);
 }
 
 TEST(SessionAlignment, StopsWhenCancelled)
 {
   base::JobControl control;
   control.cancel();
-  EXPECT_THROW(alignSessions({ session("mug_1") }, control), base::Cancelled);
+  EXPECT_THROW(alignSessions({ part("mug_1") }, {}, {}, control), base::Cancelled);
 }
 
 }  // namespace

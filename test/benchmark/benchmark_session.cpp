@@ -80,7 +80,7 @@ SessionCost measureSession(keyframes::SessionStore& tracked, std::size_t count)
   timed("segment", [&] { return pipeline::segmentSession(*store, session.id, std::nullopt, {}, control).status; });
   pipeline::BuildOptions options;
   options.make_report = false;
-  const alignment::AlignmentResult aligned = pipeline::alignSessions(*store, { session.id }, control);
+  const alignment::AlignmentResult aligned = pipeline::alignSessions(*store, { session.id }, {}, control);
   const pipeline::BuildReport built =
       pipeline::buildObject(*store, database, "object", "", aligned.placements, options, control);
   require(built.status);

@@ -244,7 +244,27 @@ TEST_F(JobsTest, FromSessionToObject)
   record(store_, "other", 2);
   segment("other");
   EXPECT_STATUS(Status::FAILED_PRECONDITION, "replace", build(buildGoal("box", "other")));
-  EXPECT_EQ(align({ "round", "other" }).status.code, Status::NO_RESULT);
+}
+
+TEST_F(JobsTest, AlignsTwoSessionsOfOneObjectAndRefusesOneWithoutMasks)
+{
+  record(store_, "first", 12);
+  record(store_, "second", 10);
+  ASSERT_EQ(segment("first").status.code, Status::OK);
+  EXPECT_STATUS(Status::FAILED_PRECONDITION, "'second'", align({ "first", "second" }));
+  ASSERT_EQ(segment("second").status.code, Status::OK);
+  const object_modelling::AlignResult aligned = align({ "first", "second" });
+  ASSERT_EQ(aligned.status.code, Status::OK) << aligned.status.message;
+  ASSERT_EQ(aligned.placements.size(), 2u);
+  EXPECT_EQ(aligned.placements[1].session_id, "second");
+  EXPECT_TRUE(aligned.left_out.empty());
+  ASSERT_EQ(aligned.edges.size(), 1u);
+  EXPECT_TRUE(aligned.edges[0].accepted);
+  EXPECT_TRUE(aligned.edges[0].used);
+  ASSERT_GE(aligned.edges[0].candidates.size(), 1u);
+  EXPECT_LE(aligned.edges[0].candidates.size(), 3u);
+  EXPECT_GT(aligned.edges[0].candidates[0].probability, 0.5);
+  EXPECT_GT(aligned.edges[0].candidates[0].overlap_ratio, 0.5);
 }
 
 TEST_F(JobsTest, SecondGoalIsRefusedAndCancelLeavesTheStoreAsItWas)

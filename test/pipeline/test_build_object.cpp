@@ -33,7 +33,7 @@ TEST(WholeChain, FromARecordingToAnObject)
   EXPECT_TRUE(refined.status.ok()) << refined.status.message;
   const SegmentReport segmented = segmentSession(*store, "walk", std::nullopt, {}, control);
   ASSERT_TRUE(segmented.status.ok()) << segmented.status.message;
-  const alignment::AlignmentResult aligned = alignSessions(*store, { "walk" }, control);
+  const alignment::AlignmentResult aligned = alignSessions(*store, { "walk" }, {}, control);
   const BuildReport report = buildObject(*store, database, "carton", "A carton", aligned.placements, {}, control);
   ASSERT_TRUE(report.status.ok()) << report.status.message;
 

@@ -154,22 +154,38 @@ TEST_F(SessionJobs, RefineLeavesPosesThatNothingLinks)
   EXPECT_EQ(fingerprint(*store_, "unlinked"), before);
 }
 
-TEST_F(SessionJobs, AlignPlacesOneAndRefusesSeveral)
+TEST_F(SessionJobs, AlignPlacesOneWithoutLookingAtIt)
 {
-  const alignment::AlignmentResult one = alignSessions(*store_, { WALK }, control_);
+  const alignment::AlignmentResult one = alignSessions(*store_, { WALK }, {}, control_);
   EXPECT_TRUE(one.status.ok());
   ASSERT_EQ(one.placements.size(), 1u);
   EXPECT_EQ(one.placements[0].session_id, WALK);
   EXPECT_EQ(one.placements[0].T_reference_session.matrix(), Eigen::Isometry3d::Identity().matrix());
+  EXPECT_EQ(alignSessions(*store_, {}, {}, control_).status.code, StatusCode::INVALID_ARGUMENT);
+}
 
-  storeRenderedSession(*store_, "other", 2);
-  const std::string before = fingerprint(*store_, WALK) + fingerprint(*store_, "other");
-  const alignment::AlignmentResult two = alignSessions(*store_, { WALK, "other" }, control_);
-  EXPECT_EQ(two.status.code, StatusCode::NO_RESULT);
-  EXPECT_NE(two.status.message.find("'walk', 'other'"), std::string::npos) << two.status.message;
-  EXPECT_TRUE(two.placements.empty());
-  EXPECT_EQ(fingerprint(*store_, WALK) + fingerprint(*store_, "other"), before);
-  EXPECT_EQ(alignSessions(*store_, {}, control_).status.code, StatusCode::INVALID_ARGUMENT);
+TEST_F(SessionJobs, AlignPlacesSessionsOfTheSameObjectAndWritesNothing)
+{
+  // Both stand in the same world, which is their session frame.
+  storeRenderedSession(*store_, "one", 12);
+  storeRenderedSession(*store_, "two", 9);
+  const std::string before = fingerprint(*store_, "one") + fingerprint(*store_, "two");
+  const alignment::AlignmentResult two = alignSessions(*store_, { "one", "two" }, {}, control_);
+  ASSERT_TRUE(two.status.ok()) << two.status.message;
+  ASSERT_EQ(two.placements.size(), 2u);
+  EXPECT_TRUE(two.placements[1].T_reference_session.isApprox(Eigen::Isometry3d::Identity(), 0.005))
+      << two.placements[1].T_reference_session.matrix();
+  ASSERT_EQ(two.edges.size(), 1u);
+  EXPECT_TRUE(two.edges[0].accepted);
+  EXPECT_EQ(fingerprint(*store_, "one") + fingerprint(*store_, "two"), before);
+}
+
+TEST_F(SessionJobs, AlignRefusesASessionWithoutMasks)
+{
+  storeRenderedSession(*store_, "one", 9);
+  const base::Status status = statusOf([this] { alignSessions(*store_, { "one", WALK }, {}, control_); });
+  EXPECT_EQ(status.code, StatusCode::FAILED_PRECONDITION) << status.message;
+  EXPECT_NE(status.message.find(WALK), std::string::npos) << status.message;
 }
 
 TEST_F(SessionJobs, RefineByTheMethodAskedFor)
@@ -241,7 +257,12 @@ TEST_F(SessionJobs, SayWhatIsMissing)
     EXPECT_EQ(unknown.code, StatusCode::NOT_FOUND) << name;
     EXPECT_NE(unknown.message.find("unknown"), std::string::npos) << name << ": " << unknown.message;
   }
-  EXPECT_EQ(statusOf([this] { alignSessions(*store_, { WALK, "unknown" }, control_); }).code, StatusCode::NOT_FOUND);
+  EXPECT_EQ(statusOf(
+                [this] {
+                  alignSessions(*store_, { WALK, "unknown" }, {}, control_);
+                })
+                .code,
+            StatusCode::NOT_FOUND);
 }
 
 TEST_F(SessionJobs, LeaveTheSessionAsItWasWhenCancelled)

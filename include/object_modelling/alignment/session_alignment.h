@@ -3,35 +3,43 @@
 #include <string>
 #include <vector>
 
-#include "object_modelling/base/job_control.h"
-#include "object_modelling/keyframes/session.h"
+#include "object_modelling/alignment/pair_alignment.h"
 
 namespace object_modelling::alignment
 {
+/// What was found for two sessions.
 struct AlignmentEdge
 {
   std::string session_a, session_b;
-  Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();
-  double overlap_ratio = 0;  ///< [0, 1] share of the surface that both saw
-  double fsv_ratio = 0;      ///< [0, 1] free-space violation
-  double confidence = 0;     ///< [0, 1]
+  bool accepted = false;
+  bool used = false;   ///< a placement rests on it; an accepted one that is not used closed a cycle, or failed to
+  std::string reason;  ///< why it was refused, or left out
+  /// Distinct poses, best first: p_a = T_a_b p_b. Empty where nothing brought the two together.
+  std::vector<PairCandidate> candidates;
+
+  const PairCandidate* best() const { return candidates.empty() ? nullptr : &candidates.front(); }
 };
 
 struct SessionPlacement
 {
   std::string session_id;
-  Eigen::Isometry3d T_reference_session = Eigen::Isometry3d::Identity();  ///< into the first session's frame
+  Eigen::Isometry3d T_reference_session = Eigen::Isometry3d::Identity();  ///< into the reference session's frame
 };
 
 struct AlignmentResult
 {
+  /// OK: all placed, or with a message that names those left out. NO_RESULT: no two sessions could be aligned.
   base::Status status;
-  std::vector<SessionPlacement> placements;
-  std::vector<AlignmentEdge> edges;
+  std::vector<SessionPlacement> placements;  ///< the reference session first
+  std::vector<std::string> left_out;         ///< sessions that could not be placed
+  std::vector<AlignmentEdge> edges;          ///< every pair
 };
 
-/// Places the sessions of one object in the frame of the first. One session is placed at identity; several are refused
-/// with NO_RESULT and the reason, never left at identity.
-AlignmentResult alignSessions(const std::vector<keyframes::Session>& sessions, base::JobControl& control);
+/// Places the sessions of one object in the frame of the first of them (where that one fits none, of the first that
+/// does): every pair is aligned, the maximum spanning tree on the probability places them, and the other accepted edges
+/// check it. A session that does not connect is left out and named, never left at identity. `known_edges` are taken
+/// over instead of being found again. Deterministic.
+AlignmentResult alignSessions(const std::vector<PartialModel>& parts, const std::vector<AlignmentEdge>& known_edges,
+                              const PairAlignmentOptions& options, base::JobControl& control);
 
 }  // namespace object_modelling::alignment

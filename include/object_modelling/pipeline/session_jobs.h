@@ -34,8 +34,16 @@ refinement::BundleAdjustmentResult refineSession(keyframes::SessionStore& store,
                                                  refinement::BundleAdjustmentOptions options,
                                                  base::JobControl& control);
 
+struct AlignOptions
+{
+  alignment::PartialModelOptions part;
+  alignment::PairAlignmentOptions pair;
+  std::vector<std::string> violations() const;
+};
+
 /// Places the sessions of one object relative to the first; writes nothing (the model frame is set when it is built).
+/// One session needs no alignment, and nothing of it is looked at.
 alignment::AlignmentResult alignSessions(keyframes::SessionStore& store, const std::vector<std::string>& session_ids,
-                                         base::JobControl& control);
+                                         const AlignOptions& options, base::JobControl& control);
 
 }  // namespace object_modelling::pipeline

@@ -16,6 +16,7 @@ public:
 private:
   object_modelling::AlignResult align(const object_modelling::AlignGoal& goal, base::JobControl& control);
 
+  SessionAlignerOptions options_;
   ros_bridge::RemoteSessionStore store_;
   JobServer<object_modelling::AlignAction> server_;
 };

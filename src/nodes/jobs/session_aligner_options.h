@@ -4,19 +4,34 @@
 #include <vector>
 
 #include "../common/store_parameters.h"
+#include "object_modelling/pipeline/session_jobs.h"
 
 namespace object_modelling::nodes
 {
 struct SessionAlignerOptions
 {
+  pipeline::AlignOptions align;
   ros_bridge::RemoteSessionStoreOptions store;
 
-  std::vector<std::string> violations() const { return {}; }
+  std::vector<std::string> violations() const { return align.violations(); }
 };
 
 template <typename Reader>
 void read(Reader& reader, SessionAlignerOptions* options)
 {
+  alignment::PartialModelOptions& part = options->align.part;
+  reader.read("part/spacing_m", part.spacing_m);
+  reader.read("part/max_points", part.max_points);
+  reader.read("part/max_views", part.max_views);
+  reader.read("part/max_features", part.max_features);
+  reader.read("part/use_color", part.use_color);
+  alignment::PairAlignmentOptions& pair = options->align.pair;
+  reader.read("pair/rotations", pair.rotations);
+  reader.read("pair/refined_candidates", pair.refined_candidates);
+  reader.read("pair/min_overlap_ratio", pair.min_overlap_ratio);
+  reader.read("pair/min_probability", pair.min_probability);
+  reader.read("pair/seed", pair.seed);
+  reader.read("pair/threads", pair.threads);
   read(reader, &options->store);
 }
 

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <opencv2/core.hpp>
+
+#include "object_modelling/base/job_control.h"
+#include "object_modelling/geometry/pinhole_camera.h"
+#include "object_modelling/keyframes/session.h"
+#include "object_modelling/rgbd/keyframe.h"
+
+namespace object_modelling::alignment
+{
+struct PartialModelOptions
+{
+  double spacing_m = 0.002;  ///< of the points
+  int max_points = 8000;     ///< a larger object gets wider spaced ones
+  int max_views = 12;        ///< keyframes that tell of empty space and give features, spread over the directions
+  int max_features = 400;    ///< per view; 0: shape and colour of the surface alone
+  bool use_color = true;
+  std::vector<std::string> violations() const;
+};
+
+/// What one view knows of space: empty up to the depth it measured.
+struct SpaceView
+{
+  geometry::PinholeCamera camera;
+  Eigen::Isometry3f T_camera_session = Eigen::Isometry3f::Identity();
+  /// CV_32FC1: the least depth of each pixel and its neighbours, 0 where one of them is missing (nothing is known).
+  cv::Mat least_depth_m;
+  double axial_sigma_m = 0;  ///< at the object
+};
+
+/// Features of one view that lie on the object.
+struct ObjectFeatures
+{
+  std::vector<Eigen::Vector3f> points;  ///< session frame
+  cv::Mat descriptors;                  ///< one row per point
+  int norm = 0;                         ///< cv::NormTypes that tells them apart
+};
+
+/// The part of an object's surface that one session saw, thinned for matching. Points, normals and colours have the
+/// same length; session frame.
+struct PartialModel
+{
+  std::string session_id;
+  std::vector<Eigen::Vector3f> points;
+  std::vector<Eigen::Vector3f> normals;  ///< outward
+  /// What the light leaves alone: brightness against that of the surroundings, and two chromaticities; each about as
+  /// large as the others matter. Zero without colour.
+  std::vector<Eigen::Vector3f> colors;
+  double spacing_m = 0;
+  std::optional<geometry::Plane> support_plane;
+  std::vector<SpaceView> views;
+  std::vector<ObjectFeatures> features;
+
+  Eigen::Vector3f centre() const;  ///< of the convex hull's bounding sphere, nearly: of the box of the points
+  double radius_m() const;         ///< farthest point from the centre
+};
+
+/// Fuses the masked keyframes of a session and prepares what alignment looks up. Throws base::Error
+/// (FAILED_PRECONDITION) that names the session where there is no object in it.
+PartialModel makePartialModel(const keyframes::Session& session, const std::vector<rgbd::Keyframe>& keyframes,
+                              const PartialModelOptions& options, base::JobControl& control);
+
+}  // namespace object_modelling::alignment

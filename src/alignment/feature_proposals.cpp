@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <random>
+
+#include <Eigen/Dense>
+
+#include "object_modelling/geometry/transform.h"
+#include "object_modelling/refinement/keyframe_features.h"
+#include "proposals.h"
+
+namespace object_modelling::alignment
+{
+namespace
+{
+constexpr double MAX_RATIO = 0.85;
+constexpr float MAX_DISTANCE_M = 0.006F;  // of a feature's point from its partner: depth noise at both
+constexpr int SAMPLES = 3000;
+constexpr int MIN_UPHOLDING = 6;
+constexpr std::size_t MAX_PROPOSALS = 10;
+constexpr float MIN_SIDE_RATIO = 0.15F;  // of the part's radius: nearer points say little of rotation
+
+struct PointMatch
+{
+  Eigen::Vector3f a, b;
+};
+
+std::vector<PointMatch> matchesOf(const ObjectFeatures& a, const ObjectFeatures& b)
+{
+  refinement::KeyframeFeatures of_a, of_b;
+  of_a.descriptors = a.descriptors;
+  of_b.descriptors = b.descriptors;
+  of_a.norm = a.norm;
+  of_b.norm = b.norm;
+  std::vector<PointMatch> matches;
+  for (const refinement::FeatureMatch& match : refinement::matchFeatures(of_a, of_b, MAX_RATIO))
+    matches.push_back({ a.points[match.a], b.points[match.b] });
+  return matches;
+}
+
+std::vector<int> upholding(const std::vector<PointMatch>& matches, const Eigen::Isometry3f& T_a_b)
+{
+  std::vector<int> result;
+  for (int i = 0; i < static_cast<int>(matches.size()); ++i)
+    if ((T_a_b * matches[i].b - matches[i].a).squaredNorm() < MAX_DISTANCE_M * MAX_DISTANCE_M)
+      result.push_back(i);
+  return result;
+}
+
+std::optional<Eigen::Isometry3f> poseFrom(const std::vector<PointMatch>& matches, const std::vector<int>& chosen)
+{
+  Eigen::Matrix3Xd p_a(3, chosen.size()), p_b(3, chosen.size());
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+  {
+    p_a.col(static_cast<Eigen::Index>(i)) = matches[chosen[i]].a.cast<double>();
+    p_b.col(static_cast<Eigen::Index>(i)) = matches[chosen[i]].b.cast<double>();
+  }
+  Eigen::Isometry3d T_a_b;
+  if (!geometry::rigidTransformFromPoints(p_a, p_b, &T_a_b))
+    return std::nullopt;
+  return T_a_b.cast<float>();
+}
+
+/// Whether the sides of both triangles are as long.
+bool congruent(const PointMatch& x, const PointMatch& y, float min_side_m)
+{
+  const float side_a = (x.a - y.a).norm(), side_b = (x.b - y.b).norm();
+  return side_a > min_side_m && std::abs(side_a - side_b) < MAX_DISTANCE_M;
+}
+}  // namespace
+
+std::vector<Proposal> proposeByFeatures(const Part& a, const Part& b, std::uint64_t seed)
+{
+  const auto views_b = static_cast<int>(b.model.features.size());
+  const auto pairs = static_cast<int>(a.model.features.size()) * views_b;
+  std::vector<std::vector<PointMatch>> by_pair(pairs);
+#pragma omp parallel for schedule(dynamic)
+  for (int i = 0; i < pairs; ++i)
+    by_pair[i] = matchesOf(a.model.features[i / views_b], b.model.features[i % views_b]);
+  std::vector<PointMatch> matches;
+  for (const std::vector<PointMatch>& of_pair : by_pair)
+    matches.insert(matches.end(), of_pair.begin(), of_pair.end());
+  struct Scored
+  {
+    std::size_t support;
+    Eigen::Isometry3f T_a_b;
+  };
+  std::vector<Scored> found;
+  const float min_side_m = MIN_SIDE_RATIO * std::min(a.radius_m, b.radius_m);
+  std::mt19937_64 random(seed);
+  for (int sample = 0; sample < SAMPLES && matches.size() >= 3; ++sample)
+  {
+    const auto draw = [&] { return static_cast<int>(random() % matches.size()); };
+    const std::vector<int> three = { draw(), draw(), draw() };
+    if (!congruent(matches[three[0]], matches[three[1]], min_side_m) ||
+        !congruent(matches[three[1]], matches[three[2]], min_side_m) ||
+        !congruent(matches[three[2]], matches[three[0]], min_side_m))
+      continue;
+    std::optional<Eigen::Isometry3f> T = poseFrom(matches, three);
+    if (!T)
+      continue;
+    const std::vector<int> first = upholding(matches, *T);
+    if (static_cast<int>(first.size()) < MIN_UPHOLDING)
+      continue;
+    T = poseFrom(matches, first);
+    if (T)
+      found.push_back({ upholding(matches, *T).size(), *T });
+  }
+  std::stable_sort(found.begin(), found.end(), [](const Scored& x, const Scored& y) { return x.support > y.support; });
+  std::vector<Proposal> proposals;
+  for (const Scored& scored : found)
+  {
+    const bool known = std::any_of(proposals.begin(), proposals.end(),
+                                   [&](const Proposal& other)
+                                   {
+                                     const Eigen::Isometry3f off = other.T_a_b.inverse() * scored.T_a_b;
+                                     return Eigen::AngleAxisf(off.linear()).angle() < 0.1F &&
+                                            (off * b.centre - b.centre).norm() < 0.01F;
+                                   });
+    if (!known)
+      proposals.push_back({ ProposalKind::FEATURES, scored.T_a_b });
+    if (proposals.size() >= MAX_PROPOSALS)
+      break;
+  }
+  return proposals;
+}
+
+}  // namespace object_modelling::alignment

@@ -1,0 +1,162 @@
+#include "object_modelling/alignment/pair_alignment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "object_modelling/base/options.h"
+#include "pair_decision.h"
+#include "pair_icp.h"
+#include "pair_measure.h"
+#include "proposals.h"
+
+namespace object_modelling::alignment
+{
+namespace
+{
+constexpr std::size_t MEASURED_CANDIDATES = 400;
+constexpr float COARSE_GATE_RATIO = 0.2F;      // of the part's radius
+constexpr float MAX_COARSE_GAP_RATIO = 0.12F;  // of the part's radius off the support plane
+constexpr float SAME_ROTATION_RAD = 0.05F, SAME_POSITION_RATIO = 0.04F;
+constexpr float DISTINCT_ROTATION_RAD = 0.1F, DISTINCT_POSITION_RATIO = 0.08F;
+
+struct Candidate
+{
+  Proposal proposal;
+  double score = 0;
+  PairQuality quality;
+};
+
+bool same(const Eigen::Isometry3f& x, const Eigen::Isometry3f& y, const Part& b, float rotation_rad, float ratio)
+{
+  const Eigen::Isometry3f off = x.inverse() * y;
+  // cos(angle) from the trace
+  return (off.linear().trace() - 1) / 2 > std::cos(rotation_rad) &&
+         (off * b.centre - b.centre).norm() < ratio * b.radius_m;
+}
+
+/// The best of each group of nearly equal poses, best first, at most `count`.
+std::vector<Candidate> distinctBest(std::vector<Candidate> candidates, const Part& b, float rotation_rad, float ratio,
+                                    std::size_t count)
+{
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& x, const Candidate& y) { return x.score > y.score; });
+  std::vector<Candidate> kept;
+  for (const Candidate& candidate : candidates)
+  {
+    if (kept.size() >= count)
+      break;
+    if (std::none_of(kept.begin(), kept.end(),
+                     [&](const Candidate& other)
+                     { return same(candidate.proposal.T_a_b, other.proposal.T_a_b, b, rotation_rad, ratio); }))
+      kept.push_back(candidate);
+  }
+  return kept;
+}
+
+/// All proposals, each moved into place by the shape alone, and how much of b then lies on a.
+std::vector<Candidate> coarse(const Part& a, const Part& b, const PairAlignmentOptions& options)
+{
+  std::vector<Proposal> proposals = proposeByFeatures(a, b, options.seed);
+  for (const Proposal& proposal : proposeByStablePlanes(a, b))
+    proposals.push_back(proposal);
+  for (const Proposal& proposal : proposeByShape(a, b, options.rotations))
+    proposals.push_back(proposal);
+  std::vector<Candidate> candidates(proposals.size());
+  PairIcpOptions icp;
+  icp.gate_m = COARSE_GATE_RATIO * a.radius_m;
+  icp.last_gate_m = 0.3 * icp.gate_m;
+#pragma omp parallel for schedule(dynamic, 16) num_threads(options.threads)
+  for (int i = 0; i < static_cast<int>(proposals.size()); ++i)
+  {
+    Proposal& proposal = proposals[i];
+    if (proposal.kind != ProposalKind::FEATURES)
+      proposal.T_a_b = alignSurfaces(a, b, proposal.T_a_b, icp);
+    const bool stands = contactGap_m(a, b, proposal.T_a_b) < MAX_COARSE_GAP_RATIO * a.radius_m;
+    candidates[i] = { proposal, stands ? coarseOverlap(a, b, proposal.T_a_b) : 0, {} };
+  }
+  candidates.erase(
+      std::remove_if(candidates.begin(), candidates.end(),
+                     [&](const Candidate& candidate) { return candidate.score < options.min_overlap_ratio / 2; }),
+      candidates.end());
+  return candidates;
+}
+
+/// Moved by shape and colour, coarse to fine, and measured.
+void refine(const Part& a, const Part& b, bool many, const PairAlignmentOptions& options,
+            std::vector<Candidate>* candidates)
+{
+#pragma omp parallel for schedule(dynamic) num_threads(options.threads)
+  for (int i = 0; i < static_cast<int>(candidates->size()); ++i)
+  {
+    Candidate& candidate = (*candidates)[i];
+    Eigen::Isometry3f& T = candidate.proposal.T_a_b;
+    if (many)
+    {
+      PairIcpOptions icp;
+      icp.coarse = false;
+      icp.gate_m = 2.5 * a.model.spacing_m;
+      icp.last_gate_m = a.model.spacing_m;
+      icp.iterations = 12;
+      icp.color = ColorDetail::BLURRED;
+      T = alignSurfaces(a, b, T, icp);
+      icp.color = ColorDetail::SHARP;
+      icp.gate_m = icp.last_gate_m;
+      T = alignSurfaces(a, b, T, icp);
+    }
+    candidate.quality = measurePair(a, b, T, many);
+    candidate.score = evidenceOf(candidate.quality).logit();
+  }
+}
+}  // namespace
+
+std::string nameOf(ProposalKind kind)
+{
+  switch (kind)
+  {
+    case ProposalKind::FEATURES:
+      return "features";
+    case ProposalKind::STABLE_PLANE:
+      return "stable_plane";
+    case ProposalKind::SHAPE:
+      break;
+  }
+  return "shape";
+}
+
+std::vector<std::string> PairAlignmentOptions::violations() const
+{
+  base::OptionsCheck check("pair_alignment");
+  check.inRange("rotations", rotations, 0, 1000000);
+  check.inRange("refined_candidates", refined_candidates, 1, 10000);
+  check.inRange("min_overlap_ratio", min_overlap_ratio, 0.0, 1.0);
+  check.inRange("min_probability", min_probability, 0.0, 1.0);
+  check.atLeast("threads", threads, 1);
+  return check.violations();
+}
+
+PairAlignment alignPair(const PartialModel& a, const PartialModel& b, const PairAlignmentOptions& options,
+                        base::JobControl& control)
+{
+  base::checked(options);
+  control.checkCancelled();
+  const Part part_a(a), part_b(b);
+  std::vector<Candidate> candidates = distinctBest(coarse(part_a, part_b, options), part_b, SAME_ROTATION_RAD,
+                                                   SAME_POSITION_RATIO, MEASURED_CANDIDATES);
+  control.checkCancelled();
+  refine(part_a, part_b, false, options, &candidates);
+  candidates = distinctBest(candidates, part_b, SAME_ROTATION_RAD, SAME_POSITION_RATIO,
+                            static_cast<std::size_t>(options.refined_candidates));
+  control.checkCancelled();
+  refine(part_a, part_b, true, options, &candidates);
+  candidates = distinctBest(candidates, part_b, DISTINCT_ROTATION_RAD, DISTINCT_POSITION_RATIO, candidates.size());
+  control.checkCancelled();
+
+  PairAlignment result;
+  for (const Candidate& candidate : candidates)
+    result.candidates.push_back(
+        { candidate.proposal.kind, candidate.proposal.T_a_b.cast<double>(), candidate.quality });
+  decide(part_a, part_b, options, &result);
+  return result;
+}
+
+}  // namespace object_modelling::alignment

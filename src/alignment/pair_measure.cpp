@@ -1,0 +1,186 @@
+#include "pair_measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace object_modelling::alignment
+{
+namespace
+{
+constexpr float SAME_SIDE_COSINE = 0.7F;
+constexpr double SAME_SURFACE_SPACINGS = 1.7;
+constexpr float SPACE_SIGMAS = 3;
+constexpr float SPACE_MARGIN_M = 0.004F;  // registration and calibration, beyond noise
+constexpr double LOWEST_SHARE = 0.01;     // of the points: noise reaches lower
+
+/// Sums for the correlation of the colours where the parts overlap.
+struct ColorSums
+{
+  Eigen::Vector3d a = Eigen::Vector3d::Zero(), b = Eigen::Vector3d::Zero();
+  double aa = 0, bb = 0, ab = 0, count = 0;
+
+  void add(const Eigen::Vector3f& of_a, const Eigen::Vector3f& of_b)
+  {
+    const Eigen::Vector3d x = of_a.cast<double>(), y = of_b.cast<double>();
+    a += x;
+    b += y;
+    aa += x.squaredNorm();
+    bb += y.squaredNorm();
+    ab += x.dot(y);
+    count += 1;
+  }
+  /// Exposure and white balance move the means; what is left must agree.
+  void finish(double* agreement, double* texture) const
+  {
+    if (count < 1)
+      return;
+    const double variance_a = std::max(0.0, aa / count - (a / count).squaredNorm());
+    const double variance_b = std::max(0.0, bb / count - (b / count).squaredNorm());
+    const double covariance = ab / count - (a / count).dot(b / count);
+    *texture = std::sqrt(std::sqrt(variance_a * variance_b));
+    *agreement = *texture > 1e-6 ? covariance / (*texture * *texture) : 0;
+  }
+};
+
+/// What one part's points meet in the other.
+struct Meeting
+{
+  double total = 0, same = 0, squares = 0;  // squares: of the point-to-plane distances, m^2
+  double front = 0, upheld = 0;             // points that the other's views look through, or see
+};
+
+/// Whether the views see a point in front of what they measured, or on it: most of them decide, so that the noise of a
+/// silhouette in one view says nothing.
+void lookAt(const std::vector<SpaceView>& views, const Eigen::Vector3f& p, Meeting* meeting)
+{
+  int front = 0, upheld = 0;
+  for (const SpaceView& view : views)
+  {
+    const Eigen::Vector3f q = view.T_camera_session * p;
+    if (q.z() <= 0)
+      continue;
+    const int u = cvRound(static_cast<float>(view.camera.fx) * q.x() / q.z() + static_cast<float>(view.camera.cx));
+    const int v = cvRound(static_cast<float>(view.camera.fy) * q.y() / q.z() + static_cast<float>(view.camera.cy));
+    if (u < 0 || v < 0 || u >= view.least_depth_m.cols || v >= view.least_depth_m.rows)
+      continue;
+    const float measured_m = view.least_depth_m.at<float>(v, u);
+    if (measured_m <= 0)
+      continue;
+    const float margin_m = SPACE_SIGMAS * static_cast<float>(view.axial_sigma_m) + SPACE_MARGIN_M;
+    front += q.z() < measured_m - margin_m;
+    upheld += std::abs(q.z() - measured_m) <= margin_m;
+  }
+  meeting->front += front > upheld && front >= 2;
+  meeting->upheld += upheld >= front && upheld > 0;
+}
+
+Meeting meet(const Part& fixed, const Part& moving, const Eigen::Isometry3f& T_fixed_moving, bool many, bool swapped,
+             ColorSums* colors)
+{
+  Meeting meeting;
+  const auto reach_m =
+      static_cast<float>(SAME_SURFACE_SPACINGS * std::max(fixed.model.spacing_m, moving.model.spacing_m));
+  const Eigen::Matrix3f R = T_fixed_moving.linear();
+  for (const int i : many ? moving.many : moving.few)
+  {
+    const Eigen::Vector3f q = T_fixed_moving * moving.model.points[i];
+    meeting.total += 1;
+    lookAt(fixed.model.views, q, &meeting);
+    const int j = fixed.fine.nearest(q);
+    if (j < 0)
+      continue;
+    const Eigen::Vector3f& n = fixed.model.normals[j];
+    const Eigen::Vector3f off = q - fixed.model.points[j];
+    const float distance_m = n.dot(off);
+    if (off.norm() > 1.5F * reach_m || std::abs(distance_m) > reach_m ||
+        n.dot(R * moving.model.normals[i]) < SAME_SIDE_COSINE)
+      continue;
+    meeting.same += 1;
+    meeting.squares += distance_m * distance_m;
+    const Eigen::Vector3f there =
+        many ? Eigen::Vector3f(fixed.colors[j] + fixed.gradients[j] * (off - n * distance_m)) : fixed.blurred_colors[j];
+    const Eigen::Vector3f& here = many ? moving.colors[i] : moving.blurred_colors[i];
+    colors->add(swapped ? here : there, swapped ? there : here);
+  }
+  return meeting;
+}
+
+/// Height above a plane below which only noise is.
+double lowest_m(const Part& part, const Eigen::Isometry3f& T_plane_part, const geometry::Plane& plane)
+{
+  const Eigen::Vector3f n = T_plane_part.linear().transpose() * plane.normal.cast<float>();
+  const auto offset = static_cast<float>(plane.signedDistance_m(T_plane_part.translation().cast<double>()));
+  std::vector<float> heights;
+  heights.reserve(part.many.size());
+  for (const int i : part.many)
+    heights.push_back(n.dot(part.model.points[i]) + offset);
+  const auto at = heights.begin() + static_cast<std::ptrdiff_t>(LOWEST_SHARE * static_cast<double>(heights.size()));
+  std::nth_element(heights.begin(), at, heights.end());
+  return *at;
+}
+}  // namespace
+
+double contactGap_m(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_b)
+{
+  double gap_m = 0;
+  if (a.model.support_plane)
+    gap_m = std::abs(lowest_m(b, T_a_b, *a.model.support_plane));
+  if (b.model.support_plane)
+    gap_m = std::max(gap_m, std::abs(lowest_m(a, T_a_b.inverse(), *b.model.support_plane)));
+  return gap_m;
+}
+
+double coarseOverlap(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_b)
+{
+  const auto reach_m = std::max(0.005F, 0.06F * a.radius_m);
+  int same = 0;
+  for (const int i : b.few)
+  {
+    const Eigen::Vector3f q = T_a_b * b.model.points[i];
+    const int j = a.coarse.nearest(q);
+    same += j >= 0 && (q - a.model.points[j]).norm() < 2 * reach_m &&
+            std::abs(a.model.normals[j].dot(q - a.model.points[j])) < reach_m &&
+            a.model.normals[j].dot(T_a_b.linear() * b.model.normals[i]) > SAME_SIDE_COSINE;
+  }
+  return static_cast<double>(same) / static_cast<double>(b.few.size());
+}
+
+PairQuality measurePair(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_b, bool many)
+{
+  ColorSums colors;
+  const Meeting b_on_a = meet(a, b, T_a_b, many, false, &colors);
+  const Meeting a_on_b = meet(b, a, T_a_b.inverse(), many, true, &colors);
+  PairQuality quality;
+  quality.overlap_ratio = std::max(b_on_a.same / b_on_a.total, a_on_b.same / a_on_b.total);
+  const double front = b_on_a.front + a_on_b.front, upheld = b_on_a.upheld + a_on_b.upheld;
+  quality.fsv_ratio = front + upheld > 0 ? front / (front + upheld) : 0;
+  const double same = b_on_a.same + a_on_b.same;
+  quality.rmse_m = same > 0 ? std::sqrt((b_on_a.squares + a_on_b.squares) / same) : 0;
+  quality.contact_gap_m = contactGap_m(a, b, T_a_b);
+  colors.finish(&quality.color_agreement, &quality.texture);
+  quality.probability = 1 / (1 + std::exp(-evidenceOf(quality).logit()));
+  return quality;
+}
+
+Evidence evidenceOf(const PairQuality& quality)
+{
+  // Learnt by logistic regression from the candidates of simulated pairs (docs/alignment.md).
+  constexpr double PRIOR = 3.5, ENOUGH_OVERLAP = 0.3, OVERLAP = 8, SPACE = -90, FIT_PER_M = -1200;
+  constexpr double CONTACT_PER_M = -300, FREE_GAP_M = 0.004, COLOR_DIFFERENCE = -100, COLOR_AGREEMENT = 13;
+  constexpr double FREE_COLOR_DIFFERENCE = 0.01;  // what another light makes of the same surface
+  Evidence evidence;
+  evidence.prior = PRIOR;
+  // A third of the surface in common proves as much as all of it.
+  evidence.overlap = OVERLAP * (std::min(quality.overlap_ratio, ENOUGH_OVERLAP) - ENOUGH_OVERLAP);
+  evidence.space = SPACE * quality.fsv_ratio;
+  evidence.fit = FIT_PER_M * quality.rmse_m;
+  // Near the table nothing is seen of a round side, so that a part may seem to float a little.
+  evidence.contact = CONTACT_PER_M * std::max(0.0, quality.contact_gap_m - FREE_GAP_M);
+  // Print that differs counts more than print that agrees: labels look alike from afar.
+  const double variance = quality.texture * quality.texture;
+  evidence.color = COLOR_DIFFERENCE * std::max(0.0, variance * (1 - quality.color_agreement) - FREE_COLOR_DIFFERENCE) +
+                   COLOR_AGREEMENT * variance * quality.color_agreement;
+  return evidence;
+}
+
+}  // namespace object_modelling::alignment

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "object_modelling/alignment/pair_alignment.h"
+#include "surface_field.h"
+
+namespace object_modelling::alignment
+{
+/// Slope of the colours along the surface at a point: one row per channel, per metre.
+using ColorGradient = Eigen::Matrix3f;
+
+/// One part of a pair, with what is looked up in it again and again.
+struct Part
+{
+  explicit Part(const PartialModel& given);
+
+  const PartialModel& model;
+  Eigen::Vector3f centre;
+  float radius_m;
+  SurfaceField coarse;  ///< far reaching
+  SurfaceField fine;
+  /// Colours averaged over a neighbourhood of several points and of few, and their slopes.
+  std::vector<Eigen::Vector3f> blurred_colors, colors;
+  std::vector<ColorGradient> blurred_gradients, gradients;
+  std::vector<int> few, many;  ///< points that stand for all, evenly
+};
+
+}  // namespace object_modelling::alignment

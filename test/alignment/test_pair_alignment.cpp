@@ -1,0 +1,201 @@
+#include "object_modelling/alignment/pair_alignment.h"
+
+#include <gtest/gtest.h>
+
+#include "object_modelling/geometry/transform.h"
+#include "support/handheld_trajectory.h"
+#include "support/synthetic_scene.h"
+
+namespace object_modelling::alignment
+{
+namespace
+{
+const Eigen::Vector3d SIZE_M(0.08, 0.12, 0.2);
+
+/// One half of the camera's resolution: enough, and quick.
+geometry::PinholeCamera camera()
+{
+  geometry::PinholeCamera camera;
+  camera.width = 320;
+  camera.height = 240;
+  camera.fx = camera.fy = 262;
+  camera.cx = 159.5;
+  camera.cy = 119.5;
+  return camera;
+}
+
+/// A session round an object that stands as it is turned; its session frame is the world frame.
+PartialModel scanned(const std::string& id, test_support::SceneObject object, const Eigen::Matrix3d& R, double height_m,
+                     bool use_color = true)
+{
+  object.T_world_object.linear() = R;
+  object.T_world_object.translation() = Eigen::Vector3d(0, 0, height_m / 2);
+  test_support::SyntheticScene scene;
+  scene.table.seed = 7;
+  scene.objects = { object };
+  test_support::SensorNoise noise;
+  noise.depth_sigma_scale = 0.5;
+  noise.missing_edge_px = 1;
+  noise.max_theta_rad = 1.3;
+  const std::vector<Eigen::Isometry3d> poses = test_support::orbitPoses(14, { 0, 0, height_m / 2 }, 0.6);
+  keyframes::Session session;
+  session.id = id;
+  session.support_plane_session = geometry::Plane{ Eigen::Vector3d::UnitZ(), 0 };
+  PartialModelOptions options;
+  options.use_color = use_color;
+  base::JobControl control;
+  return makePartialModel(session, test_support::renderKeyframes(scene, camera(), poses, noise), options, control);
+}
+
+Eigen::Matrix3d about(const Eigen::Vector3d& axis, double degrees)
+{
+  return Eigen::AngleAxisd(degrees * M_PI / 180, axis).toRotationMatrix();
+}
+
+const Eigen::Vector3d X = Eigen::Vector3d::UnitX(), Y = Eigen::Vector3d::UnitY(), Z = Eigen::Vector3d::UnitZ();
+
+/// T_a_b of an object that stood as R_a, and then as R_b.
+Eigen::Isometry3d truth(const Eigen::Matrix3d& R_a, double height_a_m, const Eigen::Matrix3d& R_b, double height_b_m)
+{
+  Eigen::Isometry3d T_a = Eigen::Isometry3d::Identity(), T_b = T_a;
+  T_a.linear() = R_a;
+  T_a.translation().z() = height_a_m / 2;
+  T_b.linear() = R_b;
+  T_b.translation().z() = height_b_m / 2;
+  return T_a * T_b.inverse();
+}
+
+void expectNear(const PairAlignment& found, const Eigen::Isometry3d& T_a_b, double height_b_m)
+{
+  ASSERT_TRUE(found.accepted) << found.reason;
+  const Eigen::Isometry3d off = T_a_b.inverse() * found.candidates.front().T_a_b;
+  const Eigen::Vector3d centre(0, 0, height_b_m / 2);
+  EXPECT_LT(geometry::rotationAngle_rad(off), 1.5 * M_PI / 180);
+  EXPECT_LT((off * centre - centre).norm(), 0.0015);
+}
+
+PairAlignment align(const PartialModel& a, const PartialModel& b, const PairAlignmentOptions& options = {})
+{
+  base::JobControl control;
+  return alignPair(a, b, options, control);
+}
+
+class PairAlignmentOfABox : public testing::Test
+{
+protected:
+  test_support::SceneObject box_ = test_support::standingBox(SIZE_M);
+  Eigen::Matrix3d upright_ = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d lying_ = about(Z, 40) * about(X, 90);
+};
+
+TEST_F(PairAlignmentOfABox, FindsItLaidOnItsSide)
+{
+  const PartialModel a = scanned("up", box_, upright_, SIZE_M.z()), b = scanned("side", box_, lying_, SIZE_M.y());
+  const PairAlignment found = align(a, b);
+  expectNear(found, truth(upright_, SIZE_M.z(), lying_, SIZE_M.y()), SIZE_M.y());
+  EXPECT_GT(found.candidates.front().quality.color_agreement, 0.6);
+  EXPECT_LT(found.candidates.front().quality.fsv_ratio, 0.01);
+  expectNear(align(b, a), truth(lying_, SIZE_M.y(), upright_, SIZE_M.z()), SIZE_M.z());
+}
+
+TEST_F(PairAlignmentOfABox, FindsItTurnedUpsideDown)
+{
+  const Eigen::Matrix3d down = about(Z, -70) * about(Y, 180);
+  expectNear(align(scanned("up", box_, upright_, SIZE_M.z()), scanned("down", box_, down, SIZE_M.z())),
+             truth(upright_, SIZE_M.z(), down, SIZE_M.z()), SIZE_M.z());
+}
+
+TEST_F(PairAlignmentOfABox, FindsItInTheSameRestingPose)
+{
+  const Eigen::Matrix3d turned = about(Z, 100);
+  expectNear(align(scanned("up", box_, upright_, SIZE_M.z()), scanned("again", box_, turned, SIZE_M.z())),
+             truth(upright_, SIZE_M.z(), turned, SIZE_M.z()), SIZE_M.z());
+}
+
+TEST_F(PairAlignmentOfABox, TakesAnyEquivalentPoseWithoutColour)
+{
+  const PairAlignment found =
+      align(scanned("up", box_, upright_, SIZE_M.z(), false), scanned("side", box_, lying_, SIZE_M.y(), false));
+  ASSERT_TRUE(found.accepted) << found.reason;
+  // Of a box: half turns about its axes.
+  const Eigen::Isometry3d off =
+      truth(upright_, SIZE_M.z(), lying_, SIZE_M.y()).inverse() * found.candidates.front().T_a_b;
+  const Eigen::Matrix3d in_box = lying_.transpose() * off.linear() * lying_;
+  EXPECT_LT((in_box.cwiseAbs() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 0.05) << in_box;
+}
+
+TEST_F(PairAlignmentOfABox, RefusesAnotherObject)
+{
+  const PartialModel a = scanned("box", box_, upright_, SIZE_M.z());
+  const PartialModel can =
+      scanned("can", test_support::standingCylinder(0.07, 0.11), Eigen::Matrix3d::Identity(), 0.11);
+  const PairAlignment found = align(a, can);
+  EXPECT_FALSE(found.accepted);
+  EXPECT_FALSE(found.reason.empty());
+  const test_support::SceneObject other = test_support::standingBox({ 0.08, 0.15, 0.17 }, 0, 0, 0, 9);
+  EXPECT_FALSE(align(a, scanned("other", other, upright_, 0.17)).accepted) << "a box of other edges";
+}
+
+TEST_F(PairAlignmentOfABox, RefusesAnotherPrintOnTheSameShape)
+{
+  test_support::SceneObject other = test_support::standingBox(SIZE_M, 0, 0, 0, 77);
+  box_.texture.contrast = other.texture.contrast = 1;
+  box_.texture.color_bgr = { 60, 90, 170 };
+  const PairAlignment found =
+      align(scanned("box", box_, upright_, SIZE_M.z()), scanned("other", other, lying_, SIZE_M.y()));
+  EXPECT_FALSE(found.accepted);
+  EXPECT_FALSE(found.reason.empty());
+}
+
+TEST_F(PairAlignmentOfABox, GivesTheSameBitsWithAnyNumberOfThreads)
+{
+  const PartialModel a = scanned("up", box_, upright_, SIZE_M.z()), b = scanned("side", box_, lying_, SIZE_M.y());
+  PairAlignmentOptions one, three;
+  one.threads = 1;
+  three.threads = 3;
+  const PairAlignment first = align(a, b, one), second = align(a, b, three);
+  ASSERT_EQ(first.candidates.size(), second.candidates.size());
+  for (std::size_t i = 0; i < first.candidates.size(); ++i)
+    EXPECT_EQ(first.candidates[i].T_a_b.matrix(), second.candidates[i].T_a_b.matrix()) << i;
+}
+
+TEST_F(PairAlignmentOfABox, StopsWhenCancelled)
+{
+  const PartialModel a = scanned("up", box_, upright_, SIZE_M.z(), false);
+  base::JobControl control;
+  control.cancel();
+  EXPECT_THROW(alignPair(a, a, {}, control), base::Cancelled);
+}
+
+TEST(PartialModel, NamesTheSessionWithoutAnObject)
+{
+  keyframes::Session session;
+  session.id = "mug_1";
+  base::JobControl control;
+  std::vector<rgbd::Keyframe> keyframes = test_support::renderKeyframes(
+      test_support::boxOnTable(), camera(), test_support::orbitPoses(3, { 0, 0, 0.1 }, 0.6));
+  for (rgbd::Keyframe& keyframe : keyframes)
+    keyframe.frame.object_mask.release();
+  try
+  {
+    makePartialModel(session, keyframes, {}, control);
+    FAIL() << "no mask, and no error";
+  }
+  catch (const base::Error& error)
+  {
+    EXPECT_EQ(error.code(), base::StatusCode::FAILED_PRECONDITION);
+    EXPECT_NE(std::string(error.what()).find("'mug_1' has no object mask"), std::string::npos) << error.what();
+  }
+}
+
+TEST(PairAlignmentOptions, AreChecked)
+{
+  PairAlignmentOptions options;
+  EXPECT_TRUE(options.violations().empty());
+  options.threads = 0;
+  options.min_probability = 2;
+  EXPECT_EQ(options.violations().size(), 2u);
+}
+
+}  // namespace
+}  // namespace object_modelling::alignment

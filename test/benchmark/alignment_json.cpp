@@ -1,0 +1,102 @@
+#include "alignment_report.h"
+
+namespace object_modelling::benchmark_alignment
+{
+namespace
+{
+nlohmann::json toJson(const Counts& counts)
+{
+  return {
+    { "pairs", counts.pairs }, { "right", counts.right }, { "wrong", counts.wrong }, { "refused", counts.refused }
+  };
+}
+
+nlohmann::json toJson(const Eigen::Isometry3d& T)
+{
+  nlohmann::json rows = nlohmann::json::array();
+  for (int row = 0; row < 4; ++row)
+    rows.push_back({ T(row, 0), T(row, 1), T(row, 2), T(row, 3) });
+  return rows;
+}
+
+nlohmann::json candidateJson(const PairRow& pair, std::size_t index)
+{
+  const alignment::PairCandidate& candidate = pair.result.candidates[index];
+  const alignment::PairQuality& quality = candidate.quality;
+  nlohmann::json json = { { "kind", alignment::nameOf(candidate.kind) },
+                          { "a_from_b", toJson(candidate.T_a_b) },
+                          { "overlap_ratio", quality.overlap_ratio },
+                          { "fsv_ratio", quality.fsv_ratio },
+                          { "rmse_m", quality.rmse_m },
+                          { "contact_gap_m", quality.contact_gap_m },
+                          { "color_agreement", quality.color_agreement },
+                          { "texture", quality.texture },
+                          { "probability", quality.probability },
+                          { "right", static_cast<bool>(pair.right[index]) },
+                          { "rotation_error_deg", nullptr },
+                          { "translation_error_mm", nullptr },
+                          { "mesh_distance_mm", nullptr } };
+  if (pair.same_object)
+  {
+    json["rotation_error_deg"] = pair.errors[index].rotation_deg;
+    json["translation_error_mm"] = pair.errors[index].translation_mm;
+    json["mesh_distance_mm"] = pair.errors[index].mesh_distance_mm;
+  }
+  return json;
+}
+
+nlohmann::json toJson(const PairRow& pair)
+{
+  nlohmann::json json = { { "a", pair.a },
+                          { "b", pair.b },
+                          { "same_object", pair.same_object },
+                          { "true_overlap_ratio", nullptr },
+                          { "true_a_from_b", nullptr },
+                          { "accepted", pair.result.accepted },
+                          { "right", pair.result.accepted && pair.firstIsRight() },
+                          { "reason", pair.result.reason },
+                          { "seconds", pair.seconds },
+                          { "rank_of_right", nullptr },
+                          { "candidates", nlohmann::json::array() } };
+  if (pair.same_object)
+  {
+    json["true_overlap_ratio"] = pair.true_overlap;
+    json["true_a_from_b"] = toJson(pair.T_a_b_true);
+  }
+  if (const std::optional<int> rank = pair.rankOfRight())
+    json["rank_of_right"] = *rank;
+  for (std::size_t i = 0; i < pair.result.candidates.size(); ++i)
+    json["candidates"].push_back(candidateJson(pair, i));
+  return json;
+}
+}  // namespace
+
+nlohmann::json toJson(const std::vector<SessionRow>& sessions, const std::vector<PairRow>& pairs)
+{
+  const Summary summary = summaryOf(pairs);
+  nlohmann::json json = { { "sessions", nlohmann::json::array() },
+                          { "pairs", nlohmann::json::array() },
+                          { "summary",
+                            { { "enough_overlap_ratio", ENOUGH_OVERLAP_RATIO },
+                              { "enough_overlap", toJson(summary.enough) },
+                              { "little_overlap", toJson(summary.little) },
+                              { "cross", toJson(summary.cross) },
+                              { "median_s", summary.median_s },
+                              { "max_s", summary.max_s } } } };
+  for (const SessionRow& session : sessions)
+    json["sessions"].push_back({ { "id", session.id },
+                                 { "problem", session.problem },
+                                 { "object", session.truth.object },
+                                 { "keyframes", session.keyframes },
+                                 { "points", session.part.points.size() },
+                                 { "spacing_m", session.part.spacing_m },
+                                 { "part_s", session.part_s },
+                                 { "session_from_object", toJson(session.truth.T_session_object) },
+                                 { "camera_rmse_mm", session.truth.camera_rmse_mm },
+                                 { "mesh_distance_mm", session.mesh_distance_mm } });
+  for (const PairRow& pair : pairs)
+    json["pairs"].push_back(toJson(pair));
+  return json;
+}
+
+}  // namespace object_modelling::benchmark_alignment

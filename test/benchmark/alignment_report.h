@@ -1,0 +1,65 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "alignment_truth.h"
+
+namespace object_modelling::benchmark_alignment
+{
+struct SessionRow
+{
+  std::string id;
+  std::string problem;  ///< why it was left out; empty if it was not
+  std::size_t keyframes = 0;
+  double made_s = 0;  ///< 0: it was in the cache
+  double part_s = 0;  ///< time of its partial model
+  alignment::PartialModel part;
+  SessionTruth truth;
+  double mesh_distance_mm = 0;  ///< of the part, placed by the truth: of both what they are worth
+};
+
+struct PairRow
+{
+  std::string a, b;
+  bool same_object = false;
+  double seconds = 0;
+  alignment::PairAlignment result;
+  // Of the same object only.
+  double true_overlap = 0;
+  Eigen::Isometry3d T_a_b_true = Eigen::Isometry3d::Identity();
+  std::vector<CandidateErrors> errors;  ///< one per candidate
+
+  std::vector<bool> right;  ///< one per candidate
+  bool firstIsRight() const { return !right.empty() && right.front(); }
+  std::optional<int> rankOfRight() const;  ///< of the first candidate that is right, from 1
+};
+
+/// Less is too little to tell an alignment from another.
+constexpr double ENOUGH_OVERLAP_RATIO = 0.2;
+
+struct Counts
+{
+  int pairs = 0, right = 0, wrong = 0, refused = 0;
+};
+
+struct Summary
+{
+  Counts enough, little, cross;  ///< pairs of an object with enough true overlap and with little, and of two objects
+  double median_s = 0, max_s = 0;
+};
+
+Summary summaryOf(const std::vector<PairRow>& pairs);
+
+// Markdown.
+std::string sessionTable(const std::vector<SessionRow>& sessions);
+std::string pairTableHeader();
+std::string toTableRow(const PairRow& pair);
+std::string summaryText(const std::vector<SessionRow>& sessions, const std::vector<PairRow>& pairs);
+
+nlohmann::json toJson(const std::vector<SessionRow>& sessions, const std::vector<PairRow>& pairs);
+
+}  // namespace object_modelling::benchmark_alignment

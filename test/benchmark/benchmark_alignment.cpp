@@ -1,0 +1,177 @@
+// Aligns the sessions of simulated sequences pair by pair, and prints what was found against the truth.
+// benchmark_alignment --help; docs/alignment.md.
+#include <chrono>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <set>
+
+#include <CLI/CLI.hpp>
+
+#include "alignment_report.h"
+#include "alignment_sessions.h"
+#include "benchmark_program.h"
+#include "object_modelling/evaluation/comparison_files.h"
+
+namespace
+{
+using namespace object_modelling;
+using namespace object_modelling::benchmark_alignment;
+
+struct Arguments
+{
+  std::vector<std::string> folders;
+  std::string cache, json;
+  bool grey = false, cross = false;
+  alignment::PartialModelOptions part;
+  alignment::PairAlignmentOptions pair;
+};
+
+double secondsSince(std::chrono::steady_clock::time_point start)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The true surfaces of the objects, each made once.
+class Surfaces
+{
+public:
+  const evaluation::ReferenceSurface& of(const SessionTruth& truth)
+  {
+    std::unique_ptr<evaluation::ReferenceSurface>& surface = surfaces_[truth.object];
+    if (!surface)
+      surface = std::make_unique<evaluation::ReferenceSurface>(evaluation::readGeometry(truth.mesh));
+    return *surface;
+  }
+
+private:
+  std::map<std::string, std::unique_ptr<evaluation::ReferenceSurface>> surfaces_;
+};
+
+/// One that fails is left out and tells why, so that hours of work on the others are not lost.
+SessionRow prepareSession(const std::string& folder, const Arguments& arguments, Surfaces* surfaces)
+{
+  SessionRow row;
+  row.id = sessionIdOf(folder);
+  try
+  {
+    const StoredSession stored = storedSession(folder, arguments.cache);
+    row.keyframes = stored.keyframes.size();
+    row.made_s = stored.made_s;
+    row.truth = sessionTruth(folder, objectFolderOf(folder), stored.keyframes);
+    base::JobControl control;
+    const auto start = std::chrono::steady_clock::now();
+    row.part = alignment::makePartialModel(stored.session, stored.keyframes, arguments.part, control);
+    row.part_s = secondsSince(start);
+    row.mesh_distance_mm =
+        meshDistance_mm(row.part.points, row.truth.T_session_object.inverse(), surfaces->of(row.truth));
+  }
+  catch (const base::Error& error)
+  {
+    row.problem = error.what();
+  }
+  std::cerr << std::fixed << std::setprecision(2) << row.id << ": ";
+  if (!row.problem.empty())
+    std::cerr << "left out: " << row.problem << std::endl;
+  else
+    std::cerr << row.keyframes << " keyframes "
+              << (row.made_s > 0 ? "made in " + std::to_string(static_cast<int>(row.made_s)) + " s" : "read") << ", "
+              << row.part.points.size() << " points in " << row.part_s << " s, truth fits to "
+              << row.truth.camera_rmse_mm << " mm" << std::endl;
+  return row;
+}
+
+PairRow alignSessions(const SessionRow& a, const SessionRow& b, const Arguments& arguments, Surfaces* surfaces)
+{
+  PairRow row;
+  row.a = a.id;
+  row.b = b.id;
+  row.same_object = a.truth.object == b.truth.object;
+  base::JobControl control;
+  const auto start = std::chrono::steady_clock::now();
+  row.result = alignment::alignPair(a.part, b.part, arguments.pair, control);
+  row.seconds = secondsSince(start);
+  row.right.assign(row.result.candidates.size(), false);
+  if (!row.same_object)
+    return row;
+  row.T_a_b_true = a.truth.T_session_object * b.truth.T_session_object.inverse();
+  row.true_overlap = trueOverlap(a.part, b.part, row.T_a_b_true);
+  for (std::size_t i = 0; i < row.result.candidates.size(); ++i)
+  {
+    row.errors.push_back(errorsOf(row.result.candidates[i].T_a_b, b.part, a.truth, b.truth, surfaces->of(a.truth)));
+    row.right[i] = isRight(row.errors.back(), arguments.grey);
+  }
+  return row;
+}
+
+/// First those of the same object, then, if asked for, the others.
+std::vector<std::pair<std::size_t, std::size_t>> pairsOf(const std::vector<SessionRow>& sessions, bool cross)
+{
+  std::vector<std::pair<std::size_t, std::size_t>> pairs, others;
+  for (std::size_t i = 0; i < sessions.size(); ++i)
+    for (std::size_t k = i + 1; k < sessions.size(); ++k)
+      if (sessions[i].problem.empty() && sessions[k].problem.empty())
+        (sessions[i].truth.object == sessions[k].truth.object ? pairs : others).emplace_back(i, k);
+  if (cross)
+    pairs.insert(pairs.end(), others.begin(), others.end());
+  return pairs;
+}
+
+void run(const Arguments& arguments)
+{
+  std::set<std::string> ids;
+  for (const std::string& folder : arguments.folders)
+    if (!ids.insert(sessionIdOf(folder)).second)
+      throw base::Error(base::StatusCode::INVALID_ARGUMENT,
+                        "'" + folder + "': another folder makes the session '" + sessionIdOf(folder) + "' too");
+  Surfaces surfaces;
+  std::vector<SessionRow> sessions;
+  for (const std::string& folder : arguments.folders)
+    sessions.push_back(prepareSession(folder, arguments, &surfaces));
+  std::cout << sessionTable(sessions) << "\n" << pairTableHeader() << std::flush;
+  std::vector<PairRow> pairs;
+  for (const auto& [i, k] : pairsOf(sessions, arguments.cross))
+  {
+    pairs.push_back(alignSessions(sessions[i], sessions[k], arguments, &surfaces));
+    std::cout << toTableRow(pairs.back()) << std::flush;
+  }
+  std::cout << "\n" << summaryText(sessions, pairs) << std::flush;
+  nlohmann::json json = toJson(sessions, pairs);
+  json["options"] = { { "grey", arguments.grey },
+                      { "cross", arguments.cross },
+                      { "threads", arguments.pair.threads },
+                      { "spacing_m", arguments.part.spacing_m } };
+  benchmark_program::writeJson(arguments.json, json);
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  CLI::App app("Alignment of sessions, pair by pair, against the truth of simulated sequences.");
+  app.footer(
+      "Right is an alignment within 1.5 deg and 1.5 mm; with --grey also one that puts the surface within 1.5 mm of\n"
+      "the true one, for shape alone does not tell symmetric poses apart. Exit codes: 1 failed, 2 wrong usage.");
+  Arguments arguments;
+  double spacing_mm = 1e3 * arguments.part.spacing_m;
+  app.add_option("folders", arguments.folders, "TUM-style folders with groundtruth.txt and objects.yaml")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--cache", arguments.cache,
+                 "Folder that keeps the refined, segmented sessions; those that are there already are not made again")
+      ->required();
+  app.add_flag("--grey", arguments.grey, "Without colour and features, by shape alone");
+  app.add_flag("--cross", arguments.cross, "Also pairs of different objects, which should be refused");
+  app.add_option("--json", arguments.json, "Also write all figures, of all candidates, to this file");
+  app.add_option("--threads", arguments.pair.threads)->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--spacing-mm", spacing_mm, "Of the points of a part")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  return benchmark_program::run(app, argc, argv,
+                                [&]
+                                {
+                                  arguments.part.use_color = !arguments.grey;
+                                  arguments.part.spacing_m = 1e-3 * spacing_mm;
+                                  run(arguments);
+                                });
+}
