@@ -104,7 +104,7 @@ void refine(const Part& a, const Part& b, bool many, const PairAlignmentOptions&
       T = alignSurfaces(a, b, T, icp);
     }
     candidate.quality = measurePair(a, b, T, many);
-    candidate.score = evidenceOf(candidate.quality).logit();
+    candidate.score = evidenceOf(candidate.quality).score();
   }
 }
 }  // namespace

@@ -122,7 +122,7 @@ void decide(const Part& a, const Part& b, const PairAlignmentOptions& options, P
   {
     const PairCandidate& rival = result->candidates[i];
     const double closer = std::log(std::max(rival.quality.rmse_m, 1e-6) / std::max(best.quality.rmse_m, 1e-6));
-    const double ahead = evidenceOf(best.quality).logit() - evidenceOf(rival.quality).logit();
+    const double ahead = evidenceOf(best.quality).score() - evidenceOf(rival.quality).score();
     if (ahead + INDEPENDENT_PATCHES * std::max(0.0, closer) > MAX_RIVAL_LOGIT)
       continue;
     const Difference difference = differenceOf(a, b, best.T_a_b.cast<float>(), rival.T_a_b.cast<float>());

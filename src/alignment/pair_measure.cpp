@@ -167,6 +167,7 @@ Evidence evidenceOf(const PairQuality& quality)
   // Learnt by logistic regression from the candidates of simulated pairs (docs/alignment.md).
   constexpr double PRIOR = 3.5, ENOUGH_OVERLAP = 0.3, OVERLAP = 8, SPACE = -90, FIT_PER_M = -1200;
   constexpr double CONTACT_PER_M = -300, FREE_GAP_M = 0.004, COLOR_DIFFERENCE = -100, COLOR_AGREEMENT = 13;
+  constexpr double MAX_VARIANCE = 0.06;
   constexpr double FREE_COLOR_DIFFERENCE = 0.01;  // what another light makes of the same surface
   Evidence evidence;
   evidence.prior = PRIOR;
@@ -176,10 +177,16 @@ Evidence evidenceOf(const PairQuality& quality)
   evidence.fit = FIT_PER_M * quality.rmse_m;
   // Near the table nothing is seen of a round side, so that a part may seem to float a little.
   evidence.contact = CONTACT_PER_M * std::max(0.0, quality.contact_gap_m - FREE_GAP_M);
-  // Print that differs counts more than print that agrees: labels look alike from afar.
+  // Print that differs counts more than print that agrees: labels look alike from afar. Strong print tells poses apart
+  // all the better, but light changes it in proportion: whether the pose is right at all is not for it to say.
+  const auto colorEvidence = [&](double variance)
+  {
+    return COLOR_DIFFERENCE * std::max(0.0, variance * (1 - quality.color_agreement) - FREE_COLOR_DIFFERENCE) +
+           COLOR_AGREEMENT * variance * quality.color_agreement;
+  };
   const double variance = quality.texture * quality.texture;
-  evidence.color = COLOR_DIFFERENCE * std::max(0.0, variance * (1 - quality.color_agreement) - FREE_COLOR_DIFFERENCE) +
-                   COLOR_AGREEMENT * variance * quality.color_agreement;
+  evidence.color = colorEvidence(std::min(variance, MAX_VARIANCE));
+  evidence.strong_color = colorEvidence(variance) - evidence.color;
   return evidence;
 }
 

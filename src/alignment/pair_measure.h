@@ -19,7 +19,9 @@ double coarseOverlap(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_
 struct Evidence
 {
   double prior = 0, overlap = 0, space = 0, fit = 0, contact = 0, color = 0;
+  double strong_color = 0;  ///< only between poses of the same two parts
   double logit() const { return prior + overlap + space + fit + contact + color; }
+  double score() const { return logit() + strong_color; }
 };
 
 Evidence evidenceOf(const PairQuality& quality);

@@ -26,9 +26,9 @@ class UsageTest(unittest.TestCase):
 
     def test_help_names_every_command(self):
         text = run("--help").stdout
-        for word in ("track", "model", "calibrate_noise", "calibrate_color_offset", "info", "compare", "report", "Exit codes"):
+        for word in ("track", "model", "align", "calibrate_noise", "calibrate_color_offset", "info", "compare", "report", "Exit codes"):
             self.assertIn(word, text)
-        for command in ("track", "model", "calibrate_noise", "calibrate_color_offset", "info", "compare", "report"):
+        for command in ("track", "model", "align", "calibrate_noise", "calibrate_color_offset", "info", "compare", "report"):
             finished = run(command, "--help")
             self.assertEqual(finished.returncode, 0)
             self.assertGreater(len(finished.stdout.splitlines()), 5)
@@ -39,6 +39,12 @@ class UsageTest(unittest.TestCase):
         self.assert_refused(run("track"), "recording", code=2)
         self.assert_refused(run("track", CEREAL_BOX, "--reference", "moon"), "reference", code=2)
         self.assert_refused(run("model", "box", CEREAL_BOX), "database", code=2)
+
+    def test_align_names_what_is_missing(self):
+        store = self.path("typed_wrongly.sqlite")
+        self.assert_refused(run("align", "mug", "--store", store), store)
+        self.assertFalse(os.path.exists(store))
+        self.assert_refused(run("align", "mug"), "store", code=2)
 
     def test_missing_and_foreign_recordings(self):
         missing = self.path("nowhere")
