@@ -164,7 +164,7 @@ PairQuality measurePair(const Part& a, const Part& b, const Eigen::Isometry3f& T
 
 Evidence evidenceOf(const PairQuality& quality)
 {
-  // Learnt by logistic regression from the candidates of simulated pairs (docs/alignment.md).
+  // Rounded from logistic regression on the candidates of simulated pairs (docs/alignment.md).
   constexpr double PRIOR = 3.5, ENOUGH_OVERLAP = 0.3, OVERLAP = 8, SPACE = -90, FIT_PER_M = -1200;
   constexpr double CONTACT_PER_M = -300, FREE_GAP_M = 0.004, COLOR_DIFFERENCE = -100, COLOR_AGREEMENT = 13;
   constexpr double MAX_VARIANCE = 0.06;
