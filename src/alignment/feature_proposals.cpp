@@ -69,12 +69,12 @@ bool congruent(const PointMatch& x, const PointMatch& y, float min_side_m)
 }
 }  // namespace
 
-std::vector<Proposal> proposeByFeatures(const Part& a, const Part& b, std::uint64_t seed)
+std::vector<Proposal> proposeByFeatures(const Part& a, const Part& b, std::uint64_t seed, [[maybe_unused]] int threads)
 {
   const auto views_b = static_cast<int>(b.model.features.size());
   const auto pairs = static_cast<int>(a.model.features.size()) * views_b;
   std::vector<std::vector<PointMatch>> by_pair(pairs);
-#pragma omp parallel for schedule(dynamic)
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (int i = 0; i < pairs; ++i)
     by_pair[i] = matchesOf(a.model.features[i / views_b], b.model.features[i % views_b]);
   std::vector<PointMatch> matches;

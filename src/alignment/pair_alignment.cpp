@@ -56,7 +56,7 @@ std::vector<Candidate> distinctBest(std::vector<Candidate> candidates, const Par
 /// All proposals, each moved into place by the shape alone, and how much of b then lies on a.
 std::vector<Candidate> coarse(const Part& a, const Part& b, const PairAlignmentOptions& options)
 {
-  std::vector<Proposal> proposals = proposeByFeatures(a, b, options.seed);
+  std::vector<Proposal> proposals = proposeByFeatures(a, b, options.seed, options.threads);
   for (const Proposal& proposal : proposeByStablePlanes(a, b))
     proposals.push_back(proposal);
   for (const Proposal& proposal : proposeByShape(a, b, options.rotations))
@@ -81,11 +81,10 @@ std::vector<Candidate> coarse(const Part& a, const Part& b, const PairAlignmentO
   return candidates;
 }
 
-/// Moved by shape and colour, coarse to fine, and measured.
-void refine(const Part& a, const Part& b, bool many, const PairAlignmentOptions& options,
-            std::vector<Candidate>* candidates)
+/// Measured; by `many` points, moved by shape and colour first.
+void refine(const Part& a, const Part& b, bool many, [[maybe_unused]] int threads, std::vector<Candidate>* candidates)
 {
-#pragma omp parallel for schedule(dynamic) num_threads(options.threads)
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (int i = 0; i < static_cast<int>(candidates->size()); ++i)
   {
     Candidate& candidate = (*candidates)[i];
@@ -139,23 +138,28 @@ PairAlignment alignPair(const PartialModel& a, const PartialModel& b, const Pair
 {
   base::checked(options);
   control.checkCancelled();
-  const Part part_a(a), part_b(b);
-  std::vector<Candidate> candidates = distinctBest(coarse(part_a, part_b, options), part_b, SAME_ROTATION_RAD,
-                                                   SAME_POSITION_RATIO, MEASURED_CANDIDATES);
+  return alignParts(Part(a, options.threads), Part(b, options.threads), options, control);
+}
+
+PairAlignment alignParts(const Part& a, const Part& b, const PairAlignmentOptions& options, base::JobControl& control)
+{
   control.checkCancelled();
-  refine(part_a, part_b, false, options, &candidates);
-  candidates = distinctBest(candidates, part_b, SAME_ROTATION_RAD, SAME_POSITION_RATIO,
+  std::vector<Candidate> candidates =
+      distinctBest(coarse(a, b, options), b, SAME_ROTATION_RAD, SAME_POSITION_RATIO, MEASURED_CANDIDATES);
+  control.checkCancelled();
+  refine(a, b, false, options.threads, &candidates);
+  candidates = distinctBest(candidates, b, SAME_ROTATION_RAD, SAME_POSITION_RATIO,
                             static_cast<std::size_t>(options.refined_candidates));
   control.checkCancelled();
-  refine(part_a, part_b, true, options, &candidates);
-  candidates = distinctBest(candidates, part_b, DISTINCT_ROTATION_RAD, DISTINCT_POSITION_RATIO, candidates.size());
+  refine(a, b, true, options.threads, &candidates);
+  candidates = distinctBest(candidates, b, DISTINCT_ROTATION_RAD, DISTINCT_POSITION_RATIO, candidates.size());
   control.checkCancelled();
 
   PairAlignment result;
   for (const Candidate& candidate : candidates)
     result.candidates.push_back(
         { candidate.proposal.kind, candidate.proposal.T_a_b.cast<double>(), candidate.quality });
-  decide(part_a, part_b, options, &result);
+  decide(a, b, options, &result);
   return result;
 }
 

@@ -14,10 +14,13 @@ constexpr double MAX_RIVAL_LOGIT = 1.2;  // nearer to the best than this, poses 
 // Of two poses of the same two parts, the one where they lie closer is the better by as many logits as patches of the
 // surface that err on their own, times the logarithm of the ratio.
 constexpr double INDEPENDENT_PATCHES = 4;
-// nearer to the best than this, poses score alike
 constexpr double SAME_SHAPE_SPACINGS = 1.5;  // distance of surfaces that are the same
 constexpr double MAX_STRAY_RATIO = 0.04;     // of the points that may be off such a surface
 constexpr double SAME_COLOR = 0.15;          // rms difference of colours that are the same, with noise and light
+
+const std::string REMEDY =
+    ": if both sessions are of one object, check their masks and support planes, or record more of what they have in "
+    "common";
 
 std::string percent(double ratio)
 {
@@ -43,12 +46,12 @@ std::string whyUnlikely(const PairQuality& quality, const PairAlignmentOptions& 
   const Evidence evidence = evidenceOf(quality);
   const double worst = std::min({ evidence.space, evidence.fit, evidence.contact, evidence.color });
   if (worst == evidence.color)
-    return "colours disagree (correlation " + std::to_string(quality.color_agreement) + " over the common surface)";
+    return "colours disagree (correlation " + percent(quality.color_agreement) + " over the common surface)" + REMEDY;
   if (worst == evidence.contact)
-    return "the object would be " + millimetres(quality.contact_gap_m) + " off what it stood on";
+    return "the object would be " + millimetres(quality.contact_gap_m) + " off what it stood on" + REMEDY;
   if (worst == evidence.space)
-    return percent(quality.fsv_ratio) + " of the surface would be where the other session saw that nothing is";
-  return "surfaces are " + millimetres(quality.rmse_m) + " apart";
+    return percent(quality.fsv_ratio) + " of the surface would be where the other session saw that nothing is" + REMEDY;
+  return "surfaces are " + millimetres(quality.rmse_m) + " apart" + REMEDY;
 }
 
 /// How far a with b placed by `rival` is from making the same object as with b placed by `best`.
@@ -64,7 +67,7 @@ Difference strayOf(const Part& a, const Part& b, const Eigen::Isometry3f& best, 
   const auto reach_m = static_cast<float>(SAME_SHAPE_SPACINGS * std::max(a.model.spacing_m, b.model.spacing_m));
   double stray = 0, squares = 0, count = 0;
   const Eigen::Isometry3f T_b_rival = best.inverse() * rival;
-  const auto lookUp =
+  const auto look_up =
       [&](const Part& part, const Eigen::Vector3f& p, const Eigen::Vector3f& n, const Eigen::Vector3f& color)
   {
     const int j = part.fine.nearest(p);
@@ -84,7 +87,7 @@ Difference strayOf(const Part& a, const Part& b, const Eigen::Isometry3f& best, 
     const Eigen::Vector3f& n = b.model.normals[i];
     const Eigen::Vector3f& color = b.blurred_colors[i];
     const bool found =
-        lookUp(b, T_b_rival * p, T_b_rival.linear() * n, color) || lookUp(a, rival * p, rival.linear() * n, color);
+        look_up(b, T_b_rival * p, T_b_rival.linear() * n, color) || look_up(a, rival * p, rival.linear() * n, color);
     stray += !found;
   }
   return { stray / static_cast<double>(b.many.size()), count > 0 ? std::sqrt(squares / count) : 0 };
@@ -103,13 +106,20 @@ double degreesBetween(const Eigen::Isometry3d& x, const Eigen::Isometry3d& y)
 }
 }  // namespace
 
+bool scoreAlike(const PairQuality& best, const PairQuality& rival)
+{
+  const double closer = std::log(std::max(rival.rmse_m, 1e-6) / std::max(best.rmse_m, 1e-6));
+  const double ahead = evidenceOf(best).score() - evidenceOf(rival).score();
+  return ahead + INDEPENDENT_PATCHES * std::max(0.0, closer) <= MAX_RIVAL_LOGIT;
+}
+
 void decide(const Part& a, const Part& b, const PairAlignmentOptions& options, PairAlignment* result)
 {
   result->accepted = false;
   if (result->candidates.empty())
   {
     result->reason = "no pose brings as much as " + percent(options.min_overlap_ratio / 2) +
-                     " of the surfaces together: are they of one object?";
+                     " of the surfaces together with the object on what it stood on" + REMEDY;
     return;
   }
   const PairCandidate& best = result->candidates.front();
@@ -121,9 +131,7 @@ void decide(const Part& a, const Part& b, const PairAlignmentOptions& options, P
   for (std::size_t i = 1; i < result->candidates.size(); ++i)
   {
     const PairCandidate& rival = result->candidates[i];
-    const double closer = std::log(std::max(rival.quality.rmse_m, 1e-6) / std::max(best.quality.rmse_m, 1e-6));
-    const double ahead = evidenceOf(best.quality).score() - evidenceOf(rival.quality).score();
-    if (ahead + INDEPENDENT_PATCHES * std::max(0.0, closer) > MAX_RIVAL_LOGIT)
+    if (!scoreAlike(best.quality, rival.quality))
       continue;
     const Difference difference = differenceOf(a, b, best.T_a_b.cast<float>(), rival.T_a_b.cast<float>());
     const std::string apart = std::to_string(std::lround(degreesBetween(best.T_a_b, rival.T_a_b))) + " deg";

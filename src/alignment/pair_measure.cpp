@@ -179,14 +179,14 @@ Evidence evidenceOf(const PairQuality& quality)
   evidence.contact = CONTACT_PER_M * std::max(0.0, quality.contact_gap_m - FREE_GAP_M);
   // Print that differs counts more than print that agrees: labels look alike from afar. Strong print tells poses apart
   // all the better, but light changes it in proportion: whether the pose is right at all is not for it to say.
-  const auto colorEvidence = [&](double variance)
+  const auto color_evidence = [&](double variance)
   {
     return COLOR_DIFFERENCE * std::max(0.0, variance * (1 - quality.color_agreement) - FREE_COLOR_DIFFERENCE) +
            COLOR_AGREEMENT * variance * quality.color_agreement;
   };
   const double variance = quality.texture * quality.texture;
-  evidence.color = colorEvidence(std::min(variance, MAX_VARIANCE));
-  evidence.strong_color = colorEvidence(variance) - evidence.color;
+  evidence.color = color_evidence(std::min(variance, MAX_VARIANCE));
+  evidence.strong_color = color_evidence(variance) - evidence.color;
   return evidence;
 }
 

@@ -8,8 +8,8 @@
 
 #include "object_modelling/base/options.h"
 #include "object_modelling/fusion/cloud_fusion.h"
+#include "object_modelling/geometry/point_index.h"
 #include "object_modelling/refinement/keyframe_features.h"
-#include "point_tree.h"
 
 namespace object_modelling::alignment
 {
@@ -48,7 +48,7 @@ std::vector<Eigen::Vector3f> invariantColors(const fusion::FusedCloud& cloud, co
   std::vector<Eigen::Vector3f> points;
   for (const int index : kept)
     points.push_back(cloud.points[index]);
-  const PointTree tree(points);
+  const geometry::PointIndex tree(points);
   std::vector<Eigen::Vector3f> rgb;
   for (const int index : kept)
     rgb.emplace_back(cloud.colors[index].cast<float>());
@@ -57,7 +57,7 @@ std::vector<Eigen::Vector3f> invariantColors(const fusion::FusedCloud& cloud, co
   for (int i = 0; i < static_cast<int>(kept.size()); ++i)
   {
     float sum = 0, count = 0;
-    for (const int near : tree.within(points[i], SURROUNDINGS_M))
+    for (const std::uint32_t near : tree.within(points[i], SURROUNDINGS_M))
       if (cloud.normals[kept[near]].dot(cloud.normals[kept[i]]) > SAME_SIDE_COSINE)
       {
         sum += rgb[near].sum();
@@ -135,7 +135,7 @@ Eigen::Vector3f PartialModel::centre() const
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& p : points)
     box.extend(p);
-  return box.center();
+  return points.empty() ? Eigen::Vector3f::Zero() : Eigen::Vector3f(box.center());
 }
 
 double PartialModel::radius_m() const

@@ -1,9 +1,12 @@
 #include "object_modelling/alignment/session_alignment.h"
 
 #include <algorithm>
+#include <memory>
 
+#include "object_modelling/base/options.h"
 #include "object_modelling/base/status.h"
 #include "session_graph.h"
+#include "surface_pair.h"
 
 namespace object_modelling::alignment
 {
@@ -30,21 +33,40 @@ std::string reasonsOf(const AlignmentResult& result)
   return text;
 }
 
-AlignmentEdge alignOrTakeOver(const PartialModel& a, const PartialModel& b,
-                              const std::vector<AlignmentEdge>& known_edges, const PairAlignmentOptions& options,
-                              base::JobControl& control)
+const AlignmentEdge* find(const std::vector<AlignmentEdge>& known_edges, const std::string& a, const std::string& b)
 {
   for (const AlignmentEdge& known : known_edges)
-    if (known.session_a == a.session_id && known.session_b == b.session_id)
-      return known;
-  const PairAlignment found = alignPair(a, b, options, control);
-  return { a.session_id, b.session_id, found.accepted, false, found.reason, found.candidates };
+    if ((known.session_a == a && known.session_b == b) || (known.session_a == b && known.session_b == a))
+      return &known;
+  return nullptr;
 }
+
+/// Parts, each prepared when a pair needs it for the first time.
+class Parts
+{
+public:
+  Parts(const std::vector<PartialModel>& models, int threads)
+      : models_(models), threads_(threads), prepared_(models.size())
+  {
+  }
+  const Part& at(std::size_t index)
+  {
+    if (!prepared_[index])
+      prepared_[index] = std::make_unique<Part>(models_[index], threads_);
+    return *prepared_[index];
+  }
+
+private:
+  const std::vector<PartialModel>& models_;
+  int threads_;
+  std::vector<std::unique_ptr<Part>> prepared_;
+};
 }  // namespace
 
 AlignmentResult alignSessions(const std::vector<PartialModel>& parts, const std::vector<AlignmentEdge>& known_edges,
                               const PairAlignmentOptions& options, base::JobControl& control)
 {
+  base::checked(options);
   AlignmentResult result;
   if (parts.empty())
   {
@@ -64,13 +86,20 @@ AlignmentResult alignSessions(const std::vector<PartialModel>& parts, const std:
   }
   const std::size_t pairs = parts.size() * (parts.size() - 1) / 2;
   control.report("align", 0, std::max<std::size_t>(1, pairs));
+  Parts prepared(parts, options.threads);
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (std::size_t j = i + 1; j < parts.size(); ++j)
     {
-      result.edges.push_back(alignOrTakeOver(parts[i], parts[j], known_edges, options, control));
+      if (const AlignmentEdge* known = find(known_edges, ids[i], ids[j]))
+        result.edges.push_back(*known);
+      else
+      {
+        const PairAlignment found = alignParts(prepared.at(i), prepared.at(j), options, control);
+        result.edges.push_back({ ids[i], ids[j], found.accepted, false, found.reason, found.candidates });
+      }
       control.report("align", result.edges.size(), pairs);
     }
-  result.placements = placeByEdges(ids, &result.edges);
+  result.placements = placeByEdges(parts, &result.edges);
   for (const std::string& id : ids)
     if (std::none_of(result.placements.begin(), result.placements.end(),
                      [&](const SessionPlacement& placed) { return placed.session_id == id; }))

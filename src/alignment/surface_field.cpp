@@ -6,8 +6,12 @@
 
 namespace object_modelling::alignment
 {
+namespace
+{
+constexpr double MAX_CELLS = 8e6;
+}
+
 SurfaceField::SurfaceField(const std::vector<Eigen::Vector3f>& points, double reach_m, double cell_m)
-    : cells_per_m_(static_cast<float>(1 / cell_m))
 {
   if (points.empty())
     return;
@@ -16,10 +20,13 @@ SurfaceField::SurfaceField(const std::vector<Eigen::Vector3f>& points, double re
     box.extend(p);
   const auto reach = static_cast<float>(reach_m);
   corner_ = box.min() - Eigen::Vector3f::Constant(reach);
+  const double volume_m3 = (box.sizes().cast<double>().array() + 2 * reach_m).prod();
+  const auto cell = static_cast<float>(std::max(cell_m, std::cbrt(volume_m3 / MAX_CELLS)));
+  cells_per_m_ = 1 / cell;
   size_ = ((box.sizes() + Eigen::Vector3f::Constant(2 * reach)) * cells_per_m_).array().ceil().cast<int>() + 1;
+  limit_ = size_.cast<float>();
   nearest_.assign(static_cast<std::size_t>(size_.prod()), -1);
   std::vector<float> squared(nearest_.size(), reach * reach);
-  const auto cell = static_cast<float>(cell_m);
   // Each point offers itself to the cells in reach.
   for (int i = 0; i < static_cast<int>(points.size()); ++i)
   {

@@ -13,16 +13,18 @@ namespace object_modelling::alignment
 class SurfaceField
 {
 public:
-  /// `reach_m`: farther from the surface nothing is found.
+  /// `reach_m`: farther from the surface nothing is found. Cells become larger than asked for where there would be too
+  /// many of them.
   SurfaceField(const std::vector<Eigen::Vector3f>& points, double reach_m, double cell_m);
 
   /// -1 beyond the reach.
   int nearest(const Eigen::Vector3f& p) const
   {
     const Eigen::Vector3f cell = (p - corner_) * cells_per_m_;
-    const int x = static_cast<int>(cell.x()), y = static_cast<int>(cell.y()), z = static_cast<int>(cell.z());
-    if (!(cell.x() >= 0 && cell.y() >= 0 && cell.z() >= 0) || x >= size_.x() || y >= size_.y() || z >= size_.z())
+    // Before they become integers, which what is far off or not finite does not fit into.
+    if (!((cell.array() >= 0).all() && (cell.array() < limit_.array()).all()))
       return -1;
+    const int x = static_cast<int>(cell.x()), y = static_cast<int>(cell.y()), z = static_cast<int>(cell.z());
     return nearest_[(static_cast<std::size_t>(z) * size_.y() + y) * size_.x() + x];
   }
 
@@ -30,6 +32,7 @@ private:
   Eigen::Vector3f corner_ = Eigen::Vector3f::Zero();
   float cells_per_m_ = 1;
   Eigen::Vector3i size_ = Eigen::Vector3i::Zero();
+  Eigen::Vector3f limit_ = Eigen::Vector3f::Zero();  ///< the size as what it is compared with
   std::vector<int> nearest_;
 };
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Dense>
 
-#include "point_tree.h"
+#include "object_modelling/geometry/point_index.h"
 
 namespace object_modelling::alignment
 {
@@ -28,15 +28,16 @@ std::vector<int> evenly(std::size_t all, std::size_t wanted)
 }
 
 /// Mean colours over a radius.
-std::vector<Eigen::Vector3f> smoothed(const PartialModel& model, const PointTree& tree, double radius_m)
+std::vector<Eigen::Vector3f> smoothed(const PartialModel& model, const geometry::PointIndex& tree, double radius_m,
+                                      [[maybe_unused]] int threads)
 {
   std::vector<Eigen::Vector3f> result(model.points.size());
-#pragma omp parallel for schedule(dynamic, 256)
+#pragma omp parallel for schedule(dynamic, 256) num_threads(threads)
   for (int i = 0; i < static_cast<int>(model.points.size()); ++i)
   {
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     float count = 0;
-    for (const int near : tree.within(model.points[i], radius_m))
+    for (const std::uint32_t near : tree.within(model.points[i], radius_m))
       if (model.normals[near].dot(model.normals[i]) > SAME_SIDE_COSINE)
       {
         sum += model.colors[near];
@@ -49,17 +50,18 @@ std::vector<Eigen::Vector3f> smoothed(const PartialModel& model, const PointTree
 
 /// Least-squares slopes of the colours in the tangent plane (Park, Zhou, Koltun: Colored Point Cloud Registration
 /// Revisited, ICCV 2017, section 4).
-std::vector<ColorGradient> slopes(const PartialModel& model, const PointTree& tree,
-                                  const std::vector<Eigen::Vector3f>& colors, double radius_m)
+std::vector<ColorGradient> slopes(const PartialModel& model, const geometry::PointIndex& tree,
+                                  const std::vector<Eigen::Vector3f>& colors, double radius_m,
+                                  [[maybe_unused]] int threads)
 {
   std::vector<ColorGradient> result(model.points.size(), ColorGradient::Zero());
-#pragma omp parallel for schedule(dynamic, 256)
+#pragma omp parallel for schedule(dynamic, 256) num_threads(threads)
   for (int i = 0; i < static_cast<int>(model.points.size()); ++i)
   {
     Eigen::Matrix3f A = 1e-6F * static_cast<float>(radius_m * radius_m) * Eigen::Matrix3f::Identity();
     Eigen::Matrix3f B = Eigen::Matrix3f::Zero();
     const Eigen::Vector3f& n = model.normals[i];
-    for (const int near : tree.within(model.points[i], radius_m))
+    for (const std::uint32_t near : tree.within(model.points[i], radius_m))
     {
       if (model.normals[near].dot(n) <= SAME_SIDE_COSINE)
         continue;
@@ -76,7 +78,7 @@ std::vector<ColorGradient> slopes(const PartialModel& model, const PointTree& tr
 }
 }  // namespace
 
-Part::Part(const PartialModel& given)
+Part::Part(const PartialModel& given, int threads)
     : model(given),
       centre(given.centre()),
       radius_m(static_cast<float>(given.radius_m())),
@@ -86,11 +88,11 @@ Part::Part(const PartialModel& given)
       few(evenly(given.points.size(), FEW)),
       many(evenly(given.points.size(), MANY))
 {
-  const PointTree tree(given.points);
-  blurred_colors = smoothed(given, tree, BLUR_SPACINGS * given.spacing_m);
-  colors = smoothed(given, tree, SHARP_SPACINGS * given.spacing_m);
-  blurred_gradients = slopes(given, tree, blurred_colors, BLUR_SPACINGS * given.spacing_m);
-  gradients = slopes(given, tree, colors, SLOPE_SPACINGS * given.spacing_m);
+  const geometry::PointIndex tree(given.points);
+  blurred_colors = smoothed(given, tree, BLUR_SPACINGS * given.spacing_m, threads);
+  colors = smoothed(given, tree, SHARP_SPACINGS * given.spacing_m, threads);
+  blurred_gradients = slopes(given, tree, blurred_colors, BLUR_SPACINGS * given.spacing_m, threads);
+  gradients = slopes(given, tree, colors, SLOPE_SPACINGS * given.spacing_m, threads);
 }
 
 }  // namespace object_modelling::alignment

@@ -11,10 +11,10 @@ namespace object_modelling::alignment
 /// Slope of the colours along the surface at a point: one row per channel, per metre.
 using ColorGradient = Eigen::Matrix3f;
 
-/// One part of a pair, with what is looked up in it again and again.
+/// One part of a pair, with what is looked up in it again and again. The partial model must outlive it.
 struct Part
 {
-  explicit Part(const PartialModel& given);
+  Part(const PartialModel& given, int threads);
 
   const PartialModel& model;
   Eigen::Vector3f centre;
@@ -26,5 +26,8 @@ struct Part
   std::vector<ColorGradient> blurred_gradients, gradients;
   std::vector<int> few, many;  ///< points that stand for all, evenly
 };
+
+/// As alignPair(), of parts that serve for several pairs.
+PairAlignment alignParts(const Part& a, const Part& b, const PairAlignmentOptions& options, base::JobControl& control);
 
 }  // namespace object_modelling::alignment

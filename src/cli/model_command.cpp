@@ -68,6 +68,24 @@ std::string processRecording(const std::string& recording, const Arguments& argu
   return session.id;
 }
 
+/// Before any work on the first of them: every recording needs a session id of its own.
+void requireNewSessions(const std::vector<std::string>& recordings, keyframes::SessionStore& store)
+{
+  std::map<std::string, std::string> owner_of;
+  for (const keyframes::Session& session : store.listSessions())
+    owner_of[session.id] = "the store";
+  for (const std::string& recording : recordings)
+  {
+    const auto [known, is_new] = owner_of.emplace(sessionIdFrom(recording), "'" + recording + "'");
+    if (!is_new)
+      throw base::Error(base::StatusCode::FAILED_PRECONDITION,
+                        "recording '" + recording + "' would become session '" + known->first + "', which " +
+                            known->second +
+                            " has already: sessions are named by the last part of the path, so rename the recording "
+                            "or link to it by another name");
+  }
+}
+
 CommandOutput run(const Arguments& arguments, base::JobControl& control)
 {
   // Opened first: a database that cannot be written must not cost a recording's processing.
@@ -79,6 +97,8 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
   else
     opened = keyframes::openSqlStore(arguments.store);
   keyframes::SessionStore& store = temporary ? temporary->get() : *opened;
+
+  requireNewSessions(arguments.recordings, store);
 
   CommandOutput output;
   output.json["object_id"] = arguments.object_id;

@@ -1,8 +1,9 @@
 """Order of the stages that make an object from stored sessions; free of ROS.
 
 `jobs` offers list_sessions() and session(id) (objects with session_id, object_id, keyframe_count) and the long jobs
-refine(ids, progress), segment(id, progress), align(ids, progress) -> placements and
-build(object_id, name, placements, replace, progress) -> built. All raise Failure.
+refine(ids, progress), segment(id, progress), align(ids, progress) -> placements, note and
+build(object_id, name, placements, replace, progress) -> built, note. All raise Failure. A note tells what a job that
+succeeded could not do; else it is empty.
 """
 from object_modelling.outcome import Code, Failure, check_id
 
@@ -43,7 +44,7 @@ def _sessions_of(jobs, object_id, last_session_id):
 
 
 def build(jobs, object_id, name, session_ids, replace, progress, clock):
-    """Runs all stages; returns (built, [(stage, seconds)]). progress(stage, step, done, total) may raise Failure to
+    """Runs all stages; returns (built, [(stage, seconds)], note). progress(stage, step, done, total) may raise Failure to
     cancel: a stage then leaves the store as it was."""
     times = []
 
@@ -61,6 +62,6 @@ def build(jobs, object_id, name, session_ids, replace, progress, clock):
 
     run("refine", lambda report: jobs.refine(session_ids, report))
     run("segment", segment_all)
-    placements = run("align", lambda report: jobs.align(session_ids, report))
-    built = run("build", lambda report: jobs.build(object_id, name, placements, replace, report))
-    return built, times
+    placements, left_out = run("align", lambda report: jobs.align(session_ids, report))
+    built, unfinished = run("build", lambda report: jobs.build(object_id, name, placements, replace, report))
+    return built, times, "; ".join(note for note in (left_out, unfinished) if note)

@@ -43,10 +43,10 @@ class ModellingJobs:
     def align(self, session_ids, progress):
         result = self._align.run(AlignGoal(session_ids=session_ids), progress)
         check(result.status, "align: ")
-        return result.placements
+        return result.placements, result.status.message
 
     def build(self, object_id, name, placements, replace, progress):
         goal = BuildGoal(object_id=object_id, name=name, placements=placements, replace=replace)
         result = self._build.run(goal, progress)
         check(result.status, "build: ")
-        return result.built
+        return result.built, result.status.message

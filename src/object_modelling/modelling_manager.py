@@ -153,11 +153,11 @@ class ModellingManager:
         thread.join()
         if "failure" in outcome:
             raise outcome["failure"]
-        return srv.BuildObjectResponse(built=outcome["built"])
+        return srv.BuildObjectResponse(status=msg.Status(Code.OK, outcome["note"]), built=outcome["built"])
 
     def _run_build(self, request, session_ids, outcome):
         try:
-            outcome["built"] = self._build(request, session_ids)
+            outcome["built"], outcome["note"] = self._build(request, session_ids)
         except Failure as failure:
             outcome["failure"] = failure
         except Exception as error:  # pylint: disable=broad-except
@@ -176,12 +176,14 @@ class ModellingManager:
                     self._report.state(self._state)
             self._report.progress(request.object_id, ("%s: %s" % (stage, step)) if step else stage, done, total)
 
-        built, times = build_sequence.build(self._jobs, request.object_id, request.name, session_ids, request.replace,
-                                            progress, time.monotonic)
+        built, times, note = build_sequence.build(self._jobs, request.object_id, request.name, session_ids,
+                                                  request.replace, progress, time.monotonic)
         # The builder tells its own stages apart.
         before = [msg.StageTime(stage, duration_s) for stage, duration_s in times if stage != "build"]
         built.stages = before + list(built.stages)
-        return built
+        if note:
+            rospy.logwarn("'%s' is built, but: %s", request.object_id, note)
+        return built, note
 
     def _end_build(self, outcome):
         with self._lock:
@@ -192,8 +194,8 @@ class ModellingManager:
                 self._failed(failure, object_id)
             elif outcome:
                 self._report.built(outcome["built"])
-                self._report.finished(object_id, Code.OK, "")
-                self._succeeded()
+                self._report.finished(object_id, Code.OK, outcome["note"])
+                self._succeeded(outcome["note"])
             else:
                 self._report.state(self._state)
 
@@ -207,8 +209,8 @@ class ModellingManager:
         with self._lock:
             return srv.CancelResponse(object_id=self._state.request_cancel())
 
-    def _succeeded(self):
-        self._report.outcome(Code.OK, "")
+    def _succeeded(self, note=""):
+        self._report.outcome(Code.OK, note)
         self._report.state(self._state)
 
     def _failed(self, failure, object_id=None):

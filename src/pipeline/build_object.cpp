@@ -241,9 +241,12 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
     }
   }
   timer.finish("load");
-  const std::string unrefined =
-      refineJointly(placements, meanColorOffset_px(views.sessions), &views.keyframes, control);
-  timer.finish("refine");
+  std::string unrefined;
+  if (placements.size() > 1)  // one session has been refined already
+  {
+    unrefined = refineJointly(meanColorOffset_px(views.sessions), &views.keyframes, control);
+    timer.finish("joint refinement");
+  }
 
   fusion::CloudFusionOptions fusion_options = options.fusion;
   surface::TextureOptions texture_options = options.texture;

@@ -9,12 +9,9 @@ namespace
 constexpr double AFTER_ALIGNMENT_M = 0.003;  // how far the surfaces of aligned sessions are off, at most
 }
 
-std::string refineJointly(const std::vector<alignment::SessionPlacement>& placements,
-                          const Eigen::Vector2d& color_offset_px, std::vector<rgbd::Keyframe>* keyframes,
+std::string refineJointly(const Eigen::Vector2d& color_offset_px, std::vector<rgbd::Keyframe>* keyframes,
                           base::JobControl& control)
 {
-  if (placements.size() < 2)
-    return {};
   refinement::MultiViewIcpOptions options;
   options.object_only = true;
   options.start_error_m = AFTER_ALIGNMENT_M;

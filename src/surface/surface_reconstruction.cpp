@@ -6,8 +6,8 @@
 #include "closed_base.h"
 #include "mesh_cleaning.h"
 #include "object_modelling/base/options.h"
+#include "object_modelling/geometry/point_index.h"
 #include "object_modelling/surface/decimation.h"
-#include "point_index.h"
 #include "poisson.h"
 #include "thin_walls.h"
 
@@ -47,13 +47,13 @@ float largestGap_rad(const Eigen::Vector3f& center, const Eigen::Vector3f& norma
 /// Whether the cloud vouches for a vertex: a fused point of the same side lies close by, or they surround it within the
 /// support distance. What lies beyond the cloud's rim has nothing on its far side.
 bool supported(const Eigen::Vector3f& vertex, const Eigen::Vector3f& normal, const fusion::FusedCloud& cloud,
-               const PointIndex& index, const SurfaceOptions& options)
+               const geometry::PointIndex& index, const SurfaceOptions& options)
 {
-  std::vector<PointIndex::Neighbour> neighbours;
+  std::vector<geometry::PointIndex::Neighbour> neighbours;
   index.nearest(vertex, NEIGHBOURS, &neighbours);
   const double near_m = RIM_RATIO * options.resolution_m;
   std::vector<Eigen::Vector3f> around;
-  for (const PointIndex::Neighbour& neighbour : neighbours)
+  for (const geometry::PointIndex::Neighbour& neighbour : neighbours)
   {
     if (neighbour.squared_distance > options.max_support_distance_m * options.max_support_distance_m)
       break;
@@ -66,17 +66,17 @@ bool supported(const Eigen::Vector3f& vertex, const Eigen::Vector3f& normal, con
   return largestGap_rad(vertex, normal, around) < M_PI;
 }
 
-void colourFromCloud(const fusion::FusedCloud& cloud, const PointIndex& index, geometry::TriangleMesh* mesh)
+void colourFromCloud(const fusion::FusedCloud& cloud, const geometry::PointIndex& index, geometry::TriangleMesh* mesh)
 {
   mesh->colors.resize(mesh->vertices.size());
 #pragma omp parallel for schedule(static)
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(mesh->vertices.size()); ++i)
   {
-    std::vector<PointIndex::Neighbour> neighbours;
+    std::vector<geometry::PointIndex::Neighbour> neighbours;
     index.nearest(mesh->vertices[i], COLOR_NEIGHBOURS, &neighbours);
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     float weight = 0;
-    for (const PointIndex::Neighbour& neighbour : neighbours)
+    for (const geometry::PointIndex::Neighbour& neighbour : neighbours)
     {
       // Points of the other side of a thin wall count only where there is no other.
       const bool same_side = cloud.normals[neighbour.index].dot(mesh->normals[i]) > 0;
@@ -115,8 +115,8 @@ SurfaceResult reconstructSurface(const fusion::FusedCloud& cloud, const std::opt
   std::vector<Eigen::Vector3f> points = cloud.points, normals = cloud.normals;
   if (options.watertight && support)
     addBase(*support, options.resolution_m, &points, &normals);
-  const std::vector<float> spread_m =
-      spreadOfWalls_m(points, normals, PointIndex(points), static_cast<float>(WALL_RATIO * options.resolution_m));
+  const std::vector<float> spread_m = spreadOfWalls_m(points, normals, geometry::PointIndex(points),
+                                                      static_cast<float>(WALL_RATIO * options.resolution_m));
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i] += spread_m[i] * normals[i];
   geometry::TriangleMesh mesh = poissonSurface(points, normals, CELL_RATIO * options.resolution_m);
@@ -125,7 +125,7 @@ SurfaceResult reconstructSurface(const fusion::FusedCloud& cloud, const std::opt
   takeSpreadBack(points, normals, spread_m, &mesh);
 
   control.report("mesh", 1, STAGES);
-  const PointIndex index(cloud.points);
+  const geometry::PointIndex index(cloud.points);
   mesh.seen.resize(mesh.vertices.size());
 #pragma omp parallel for schedule(static)
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(mesh.seen.size()); ++i)

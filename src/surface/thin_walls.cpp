@@ -17,11 +17,11 @@ constexpr int SMOOTHINGS = 3;  ///< each over the nearest points of the same sid
 
 /// Distance to the other side behind a point; `none_m` without one nearer than that.
 float thickness_m(std::size_t i, const std::vector<Eigen::Vector3f>& points,
-                  const std::vector<Eigen::Vector3f>& normals, const std::vector<PointIndex::Neighbour>& neighbours,
-                  float none_m)
+                  const std::vector<Eigen::Vector3f>& normals,
+                  const std::vector<geometry::PointIndex::Neighbour>& neighbours, float none_m)
 {
   float thinnest_m = none_m;
-  for (const PointIndex::Neighbour& neighbour : neighbours)
+  for (const geometry::PointIndex::Neighbour& neighbour : neighbours)
   {
     const Eigen::Vector3f& normal = normals[i];
     if (normals[neighbour.index].dot(normal) > OPPOSITE_COSINE)
@@ -37,11 +37,11 @@ float thickness_m(std::size_t i, const std::vector<Eigen::Vector3f>& points,
 }  // namespace
 
 std::vector<float> spreadOfWalls_m(const std::vector<Eigen::Vector3f>& points,
-                                   const std::vector<Eigen::Vector3f>& normals, const PointIndex& index,
+                                   const std::vector<Eigen::Vector3f>& normals, const geometry::PointIndex& index,
                                    float min_thickness_m)
 {
   const auto count = static_cast<std::int64_t>(points.size());
-  std::vector<std::vector<PointIndex::Neighbour>> neighbours(points.size());
+  std::vector<std::vector<geometry::PointIndex::Neighbour>> neighbours(points.size());
   std::vector<float> spread_m(points.size());
 #pragma omp parallel for schedule(static)
   for (std::int64_t i = 0; i < count; ++i)
@@ -56,7 +56,7 @@ std::vector<float> spreadOfWalls_m(const std::vector<Eigen::Vector3f>& points,
     for (std::int64_t i = 0; i < count; ++i)
     {
       float sum_m = 0, same_side = 0;
-      for (const PointIndex::Neighbour& neighbour : neighbours[i])
+      for (const geometry::PointIndex::Neighbour& neighbour : neighbours[i])
         if (normals[neighbour.index].dot(normals[i]) > SAME_SIDE_COSINE)
         {
           sum_m += spread_m[neighbour.index];
@@ -74,15 +74,15 @@ void takeSpreadBack(const std::vector<Eigen::Vector3f>& spread_points, const std
 {
   if (std::all_of(spread_m.begin(), spread_m.end(), [](float value) { return value == 0; }))
     return;
-  const PointIndex index(spread_points);
+  const geometry::PointIndex index(spread_points);
 #pragma omp parallel for schedule(static)
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(mesh->vertices.size()); ++i)
   {
-    std::vector<PointIndex::Neighbour> neighbours;
+    std::vector<geometry::PointIndex::Neighbour> neighbours;
     index.nearest(mesh->vertices[i], BACK_NEIGHBOURS, &neighbours);
     Eigen::Vector3f moved = Eigen::Vector3f::Zero();
     float total = 0;
-    for (const PointIndex::Neighbour& neighbour : neighbours)
+    for (const geometry::PointIndex::Neighbour& neighbour : neighbours)
     {
       const Eigen::Vector3f& normal = normals[neighbour.index];
       if (normal.dot(mesh->normals[i]) <= 0)

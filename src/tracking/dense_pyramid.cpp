@@ -39,9 +39,11 @@ cv::Mat reduceDepth(const cv::Mat& depth_m, int step, cv::Size size)
       // Opposite neighbours go together, so that the mean of a slanted surface stays in place. NaN fails the test.
       const auto add = [&](float a, float b)
       {
-        const bool same = (std::abs(a - centre) <= gate) & (std::abs(b - centre) <= gate);
-        sum += same ? a + b : 0;
-        count += same ? 2 : 0;
+        if (std::abs(a - centre) <= gate && std::abs(b - centre) <= gate)
+        {
+          sum += a + b;
+          count += 2;
+        }
       };
       add(rows[0][x - 1], rows[2][x + 1]);
       add(rows[0][x], rows[2][x]);

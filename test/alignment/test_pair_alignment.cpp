@@ -12,18 +12,6 @@ namespace
 {
 const Eigen::Vector3d SIZE_M(0.08, 0.12, 0.2);
 
-/// One half of the camera's resolution: enough, and quick.
-geometry::PinholeCamera camera()
-{
-  geometry::PinholeCamera camera;
-  camera.width = 320;
-  camera.height = 240;
-  camera.fx = camera.fy = 262;
-  camera.cx = 159.5;
-  camera.cy = 119.5;
-  return camera;
-}
-
 /// A session round an object that stands as it is turned; its session frame is the world frame.
 PartialModel scanned(const std::string& id, test_support::SceneObject object, const Eigen::Matrix3d& R, double height_m,
                      bool use_color = true)
@@ -44,7 +32,8 @@ PartialModel scanned(const std::string& id, test_support::SceneObject object, co
   PartialModelOptions options;
   options.use_color = use_color;
   base::JobControl control;
-  return makePartialModel(session, test_support::renderKeyframes(scene, camera(), poses, noise), options, control);
+  return makePartialModel(session, test_support::renderKeyframes(scene, test_support::smallCamera(), poses, noise),
+                          options, control);
 }
 
 Eigen::Matrix3d about(const Eigen::Vector3d& axis, double degrees)
@@ -173,7 +162,7 @@ TEST(PartialModel, NamesTheSessionWithoutAnObject)
   session.id = "mug_1";
   base::JobControl control;
   std::vector<rgbd::Keyframe> keyframes = test_support::renderKeyframes(
-      test_support::boxOnTable(), camera(), test_support::orbitPoses(3, { 0, 0, 0.1 }, 0.6));
+      test_support::boxOnTable(), test_support::smallCamera(), test_support::orbitPoses(3, { 0, 0, 0.1 }, 0.6));
   for (rgbd::Keyframe& keyframe : keyframes)
     keyframe.frame.object_mask.release();
   try

@@ -102,6 +102,43 @@ TEST(SessionAlignment, DoesNotTrustAWeakEdgeThatAnotherContradicts)
   EXPECT_EQ(result.left_out, std::vector<std::string>{ "c" });
 }
 
+TEST(SessionAlignment, MeasuresCyclesWhereTheObjectIs)
+{
+  // One degree is 17 mm at the camera, 1 m away, and nothing at the object.
+  std::vector<PartialModel> parts = { part("a"), part("b"), part("c") };
+  parts[2].points = { { -0.05F, 0, 1 }, { 0.05F, 0, 1 } };
+  AlignmentEdge turned = edge("a", "c", { 0, 0, 0 }, 0.6);
+  turned.candidates[0].T_a_b = Eigen::Translation3d(0, 0, 1) * Eigen::AngleAxisd(0.0175, Eigen::Vector3d::UnitX()) *
+                               Eigen::Translation3d(0, 0, -1);
+  const AlignmentResult result =
+      align(parts, { edge("a", "b", { 0, 0, 0 }, 0.8), turned, edge("b", "c", { 0, 0, 0 }, 0.7) });
+  EXPECT_EQ(result.placements.size(), 3u) << result.status.message;
+}
+
+TEST(SessionAlignment, LetsACycleCloseByAnEquivalentPose)
+{
+  // As of a plain can: the direct edge holds half a turn for as good as none, and took the other one.
+  AlignmentEdge ambiguous = edge("a", "c", { 0, 0, 0 }, 0.6);
+  ambiguous.candidates.push_back(ambiguous.candidates[0]);
+  ambiguous.candidates[0].T_a_b.linear() = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const std::vector<AlignmentEdge> edges = { edge("a", "b", { 0, 0, 0 }, 0.8), ambiguous,
+                                             edge("b", "c", { 0, 0, 0 }, 0.7) };
+  EXPECT_EQ(align({ part("a"), part("b"), part("c") }, edges).placements.size(), 3u);
+  std::vector<AlignmentEdge> decided = edges;
+  decided[1].candidates[1].quality.fsv_ratio = 0.1;
+  EXPECT_EQ(align({ part("a"), part("b"), part("c") }, decided).placements.size(), 2u);
+}
+
+TEST(SessionAlignment, TakesKnownEdgesInEitherOrderAndForgetsTheirOldReasons)
+{
+  AlignmentEdge known = edge("b", "a", { -1, 0, 0 }, 0.9);
+  known.reason = "left out: contradicts something";
+  const AlignmentResult result = align({ part("a"), part("b") }, { known });
+  ASSERT_EQ(result.placements.size(), 2u);
+  EXPECT_TRUE(result.placements[1].T_reference_session.translation().isApprox(Eigen::Vector3d(1, 0, 0)));
+  EXPECT_TRUE(result.edges[0].reason.empty()) << result.edges[0].reason;
+}
+
 TEST(SessionAlignment, RefusesNoSessionAndOneTwice)
 {
   EXPECT_EQ(align({}, {}).status.code, base::StatusCode::INVALID_ARGUMENT);

@@ -46,6 +46,14 @@ class UsageTest(unittest.TestCase):
         self.assertFalse(os.path.exists(store))
         self.assert_refused(run("align", "mug"), "store", code=2)
 
+    def test_two_recordings_of_one_name_are_refused_before_any_work(self):
+        twin = self.path("twin", os.path.basename(HANDHELD))
+        os.makedirs(os.path.dirname(twin))
+        os.symlink(HANDHELD, twin)
+        finished = run("model", "box", HANDHELD, twin, "--database", self.path("objects"))
+        self.assert_refused(finished, twin, os.path.basename(HANDHELD), "rename")
+        self.assertNotIn("track", finished.stderr.split("recording '")[0])
+
     def test_missing_and_foreign_recordings(self):
         missing = self.path("nowhere")
         self.assert_refused(run("track", missing), missing)

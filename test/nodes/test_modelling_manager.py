@@ -152,6 +152,16 @@ class BuildTest(ManagerTest):
         self.wait_until(lambda: self.progress and not self.progress[-1].active, "the end on ~progress")
         self.assertIn("build mug", {report.job for report in self.progress})
 
+    def test_what_was_left_out_reaches_who_asked(self):
+        self.recording.add("s1", "mug")
+        self.recording.add("s2", "mug")
+        self.jobs.align.status = msg.Status(Code.OK, "left out: session 's2'")
+        self.jobs.build.status = msg.Status(Code.OK, "no report")
+        answer = self.build(wait=True)
+        self.assertEqual(answer.status.message, "left out: session 's2'; no report")
+        self.wait_until(lambda: self.state.status.message == answer.status.message, "the note in ~state")
+        self.assertEqual(self.state.status.code, Code.OK)
+
     def test_the_last_session_without_object_is_taken(self):
         self.start("s7")
         self.stop()

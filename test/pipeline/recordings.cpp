@@ -30,17 +30,6 @@ void print(const Eigen::MatrixXd& matrix, std::ostream* out)
 }
 }  // namespace
 
-geometry::PinholeCamera smallCamera()
-{
-  geometry::PinholeCamera camera;
-  camera.width = 320;
-  camera.height = 240;
-  camera.fx = camera.fy = 262.5;
-  camera.cx = 159.5;
-  camera.cy = 119.5;
-  return camera;
-}
-
 const Recording& walkRoundBox(int frame_count, double turn_rad)
 {
   static std::map<std::pair<int, double>, Recording> made;

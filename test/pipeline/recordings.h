@@ -13,7 +13,7 @@
 // Small recordings (320x240) of ray-cast scenes, and stores with sessions made from them.
 namespace object_modelling::pipeline
 {
-geometry::PinholeCamera smallCamera();
+using test_support::smallCamera;
 
 /// Edges of the box in test_support::boxOnTable(), as an object frame has them: the longer horizontal one is x.
 const Eigen::Vector3d BOX_SIZE_M(0.12, 0.08, 0.2);

@@ -149,4 +149,15 @@ geometry::PinholeCamera vgaCamera()
   return camera;
 }
 
+geometry::PinholeCamera smallCamera()
+{
+  geometry::PinholeCamera camera;
+  camera.width = 320;
+  camera.height = 240;
+  camera.fx = camera.fy = 262.5;
+  camera.cx = 159.5;
+  camera.cy = 119.5;
+  return camera;
+}
+
 }  // namespace object_modelling::test_support

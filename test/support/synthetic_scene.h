@@ -85,5 +85,7 @@ std::vector<rgbd::Keyframe> renderKeyframes(const SyntheticScene& scene, const g
 
 /// 640 x 480, f = 525 px.
 geometry::PinholeCamera vgaCamera();
+/// The same at half the resolution: enough for most, and quick.
+geometry::PinholeCamera smallCamera();
 
 }  // namespace object_modelling::test_support

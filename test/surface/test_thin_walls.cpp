@@ -21,7 +21,7 @@ void addPlane(float z_m, float normal_z, std::vector<Eigen::Vector3f>* points, s
 
 std::vector<float> spreadOf(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals)
 {
-  return spreadOfWalls_m(points, normals, PointIndex(points), MIN_THICKNESS_M);
+  return spreadOfWalls_m(points, normals, geometry::PointIndex(points), MIN_THICKNESS_M);
 }
 
 TEST(ThinWalls, SidesAreSpreadToTheThicknessAskedFor)

@@ -28,7 +28,7 @@ struct PairQuality
   double contact_gap_m = 0;    ///< how far the lowest points are off the support plane of the other session; the larger
   double color_agreement = 0;  ///< [-1, 1] correlation over the overlap; 0 without texture
   double texture = 0;          ///< standard deviation of the colours of the overlap: what the agreement is worth
-  double probability = 0;      ///< of being right, calibrated on simulated pairs (docs/alignment.md)
+  double probability = 0;      ///< of being right, by weights from simulated pairs (docs/alignment.md)
 };
 
 /// Where a proposal came from.

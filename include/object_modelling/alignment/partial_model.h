@@ -57,7 +57,7 @@ struct PartialModel
   std::vector<SpaceView> views;
   std::vector<ObjectFeatures> features;
 
-  Eigen::Vector3f centre() const;  ///< of the convex hull's bounding sphere, nearly: of the box of the points
+  Eigen::Vector3f centre() const;  ///< of the box of the points; zero without points
   double radius_m() const;         ///< farthest point from the centre
 };
 

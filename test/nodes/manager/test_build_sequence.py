@@ -14,6 +14,7 @@ class FakeJobs:
         self.sessions = list(sessions)
         self.fails = fails
         self.calls = []
+        self.notes = ("", "")
 
     def list_sessions(self):
         return self.sessions
@@ -38,10 +39,10 @@ class FakeJobs:
         self._run("segment", session_id, progress)
 
     def align(self, ids, progress):
-        return self._run("align", tuple(ids), progress, ["placement of " + name for name in ids])
+        return self._run("align", tuple(ids), progress, ["placement of " + name for name in ids]), self.notes[0]
 
     def build(self, object_id, name, placements, replace, progress):
-        return self._run("build", (object_id, name, tuple(placements), replace), progress, "built")
+        return self._run("build", (object_id, name, tuple(placements), replace), progress, "built"), self.notes[1]
 
 
 class ChooseSessionsTest(unittest.TestCase):
@@ -94,13 +95,19 @@ class BuildTest(unittest.TestCase):
 
     def test_order_and_times(self):
         jobs = FakeJobs()
-        built, times = self.build(jobs)
-        self.assertEqual(built, "built")
+        built, times, note = self.build(jobs)
+        self.assertEqual((built, note), ("built", ""))
         self.assertEqual(times, [("refine", 1), ("segment", 1), ("align", 1), ("build", 1)])
         self.assertEqual(
             jobs.calls,
             [("refine", ("a", "b")), ("segment", "a"), ("segment", "b"), ("align", ("a", "b")),
              ("build", ("mug", "Mug", ("placement of a", "placement of b"), True))])
+
+    def test_notes_are_joined(self):
+        jobs = FakeJobs()
+        for notes, expected in ((("left out", ""), "left out"), (("left out", "no report"), "left out; no report")):
+            jobs.notes = notes
+            self.assertEqual(self.build(jobs)[2], expected)
 
     def test_progress(self):
         reports = []

@@ -1,8 +1,11 @@
-#include "point_index.h"
+#include "object_modelling/geometry/point_index.h"
+
+#include <algorithm>
+#include <utility>
 
 #include <nanoflann.hpp>
 
-namespace object_modelling::surface
+namespace object_modelling::geometry
 {
 class PointIndex::Implementation
 {
@@ -29,6 +32,18 @@ public:
   {
     return tree_.knnSearch(query.data(), count, indices, distances);
   }
+  std::vector<std::uint32_t> findWithin(const Eigen::Vector3f& query, float radius) const
+  {
+    std::vector<std::pair<std::uint32_t, float>> found;
+    nanoflann::RadiusResultSet<float, std::uint32_t> result(radius * radius, found);
+    tree_.findNeighbors(result, query.data(), {});
+    std::vector<std::uint32_t> indices;
+    indices.reserve(found.size());
+    for (const auto& [index, squared_distance] : found)
+      indices.push_back(index);
+    std::sort(indices.begin(), indices.end());
+    return indices;
+  }
 
 private:
   using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Implementation>, Implementation,
@@ -54,4 +69,9 @@ void PointIndex::nearest(const Eigen::Vector3f& query, std::size_t count, std::v
     neighbours->push_back({ indices[i], distances[i] });
 }
 
-}  // namespace object_modelling::surface
+std::vector<std::uint32_t> PointIndex::within(const Eigen::Vector3f& query, double radius_m) const
+{
+  return implementation_->findWithin(query, static_cast<float>(radius_m));
+}
+
+}  // namespace object_modelling::geometry
