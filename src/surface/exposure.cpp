@@ -1,5 +1,6 @@
 #include "exposure.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -19,21 +20,27 @@ struct LogColor
   Eigen::Vector3f log_bgr = Eigen::Vector3f::Zero();
 };
 
+/// Of every vertex under every light.
 std::vector<std::vector<LogColor>> collect(const geometry::TriangleMesh& mesh, const std::vector<TextureView>& views,
                                            const VertexWeights& weights)
 {
-  std::vector<std::vector<LogColor>> samples(weights.size());
+  int lights = 1;
+  for (const TextureView& view : views)
+    lights = std::max(lights, view.light + 1);
+  std::vector<std::vector<LogColor>> samples(weights.size() * lights);
 #pragma omp parallel for schedule(dynamic, 256)
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(weights.size()); ++i)
   {
     for (const VertexView& seen : weights[i])
     {
-      const Eigen::Vector3f bgr = colorAt(views[seen.view].smooth_bgr, colorPixel(views[seen.view], mesh.vertices[i]));
-      if (bgr.minCoeff() >= DARKEST && bgr.maxCoeff() <= BRIGHTEST)
-        samples[i].push_back({ seen.view, bgr.array().log().matrix() });
+      const TextureView& view = views[seen.view];
+      const Eigen::Vector3f bgr = colorAt(view.smooth_bgr, colorPixel(view, mesh.vertices[i]));
+      if (const std::optional<Eigen::Vector3f> log_bgr = logColor(bgr))
+        samples[i * lights + view.light].push_back({ seen.view, *log_bgr });
     }
-    if (samples[i].size() < 2)
-      samples[i].clear();
+    for (int light = 0; light < lights; ++light)
+      if (samples[i * lights + light].size() < 2)
+        samples[i * lights + light].clear();
   }
   return samples;
 }
@@ -76,6 +83,22 @@ Eigen::VectorXd solveChannel(const std::vector<std::vector<LogColor>>& samples, 
   return log_gains.array() - log_gains.mean();
 }
 }  // namespace
+
+std::optional<Eigen::Vector3f> logColor(const Eigen::Vector3f& bgr)
+{
+  if (bgr.maxCoeff() < DARKEST || bgr.maxCoeff() > BRIGHTEST)
+    return std::nullopt;
+  return Eigen::Vector3f(bgr.array().max(DARKEST).log());
+}
+
+Exposure solveExposure(const geometry::TriangleMesh& mesh, const std::vector<TextureView>& views,
+                       const VertexWeights& weights)
+{
+  Exposure exposure;
+  exposure.view_gains = solveGains(mesh, views, weights);
+  exposure.light_gains = levelLights(mesh, views, weights, exposure.view_gains);
+  return exposure;
+}
 
 std::vector<Eigen::Vector3f> solveGains(const geometry::TriangleMesh& mesh, const std::vector<TextureView>& views,
                                         const VertexWeights& weights)

@@ -5,6 +5,7 @@
 
 #include "closed_base.h"
 #include "mesh_cleaning.h"
+#include "mesh_closing.h"
 #include "object_modelling/base/options.h"
 #include "object_modelling/geometry/point_index.h"
 #include "object_modelling/surface/decimation.h"
@@ -25,6 +26,7 @@ constexpr double CELL_RATIO = 0.5;  ///< of the resolution: between the two side
 /// back.
 constexpr double WALL_RATIO = 1.75;
 constexpr double MIN_PIECE_RATIO = 0.02;  ///< of the largest piece's area
+constexpr double TEETH_RATIO = 0.5;       ///< half the width of what is cut off the rim; in units of the resolution
 constexpr int STAGES = 4;
 
 /// Largest angle (rad) about `normal` through which no neighbour lies, seen from `center`.
@@ -88,6 +90,12 @@ void colourFromCloud(const fusion::FusedCloud& cloud, const geometry::PointIndex
   }
 }
 
+/// What was seen, with narrow gaps closed and without the teeth of its rim.
+std::vector<char> observedMarks(const geometry::TriangleMesh& mesh, const SurfaceOptions& options)
+{
+  const std::vector<char> seen(mesh.seen.begin(), mesh.seen.end());
+  return openedMarks(mesh, closedMarks(mesh, seen, options.max_support_distance_m), TEETH_RATIO * options.resolution_m);
+}
 }  // namespace
 
 std::vector<std::string> SurfaceOptions::violations() const
@@ -134,7 +142,7 @@ SurfaceResult reconstructSurface(const fusion::FusedCloud& cloud, const std::opt
   control.report("mesh", 2, STAGES);
   if (!options.watertight)
   {
-    keepVertices({ mesh.seen.begin(), mesh.seen.end() }, &mesh);
+    keepVertices(observedMarks(mesh, options), &mesh);
     mesh.seen.clear();
   }
   removeSmallPieces(MIN_PIECE_RATIO, &mesh);

@@ -67,13 +67,23 @@ public:
       if (!(weight > 0))
         continue;
       const float preferred = std::pow(weight / best, static_cast<float>(paint_.view_preference));
-      sum += preferred * images_[candidate.view].at(colorPixel(paint_.views[candidate.view], point));
+      const TextureView& view = paint_.views[candidate.view];
+      sum += preferred *
+             lightGain(view.light, triangle, shares).cwiseProduct(images_[candidate.view].at(colorPixel(view, point)));
       total += preferred;
     }
     return total > 0 ? Eigen::Vector3f(seen_share * (sum / total) + (1 - seen_share) * filled) : filled;
   }
 
 private:
+  Eigen::Vector3f lightGain(int light, std::size_t triangle, const Eigen::Vector3f& shares) const
+  {
+    Eigen::Vector3f gain = Eigen::Vector3f::Zero();
+    for (int corner = 0; corner < 3; ++corner)
+      gain += shares[corner] * paint_.exposure.ofLight(light, paint_.mesh.triangles[triangle][corner]);
+    return gain;
+  }
+
   const Paint& paint_;
   const std::vector<ViewImage>& images_;
   const std::vector<Eigen::Vector3f>& vertex_colors_;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "atlas.h"
+#include "exposure.h"
 #include "view_image.h"
 #include "view_weights.h"
 
@@ -14,6 +15,7 @@ struct Paint
   const geometry::TriangleMesh& mesh;
   const std::vector<TextureView>& views;
   const VertexWeights& weights;
+  const Exposure& exposure;
   double view_preference = 1;
 };
 

@@ -77,21 +77,29 @@ TextureView prepare(const geometry::TriangleMesh& mesh, const rgbd::Keyframe& ke
 
 std::vector<TextureView> prepareTextureViews(const geometry::TriangleMesh& mesh,
                                              const std::vector<rgbd::Keyframe>& keyframes,
-                                             const Eigen::Vector2d& color_offset_px)
+                                             const std::vector<int>& lights, const Eigen::Vector2d& color_offset_px)
 {
   std::vector<const rgbd::Keyframe*> usable;
-  for (const rgbd::Keyframe& keyframe : keyframes)
+  std::vector<int> light_of;
+  for (std::size_t i = 0; i < keyframes.size(); ++i)
   {
+    const rgbd::Keyframe& keyframe = keyframes[i];
     if (keyframe.frame.color_bgr.empty())
       continue;
     checkImages(keyframe);
     if (keyframe.frame.object_mask.empty() || cv::countNonZero(keyframe.frame.object_mask) > 0)
+    {
       usable.push_back(&keyframe);
+      light_of.push_back(lights.empty() ? 0 : lights[i]);
+    }
   }
   std::vector<TextureView> views(usable.size());
 #pragma omp parallel for schedule(dynamic)
   for (int i = 0; i < static_cast<int>(usable.size()); ++i)
+  {
     views[i] = prepare(mesh, *usable[i], color_offset_px);
+    views[i].light = light_of[i];
+  }
   return views;
 }
 

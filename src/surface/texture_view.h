@@ -14,6 +14,7 @@ namespace object_modelling::surface
 struct TextureView
 {
   const rgbd::Frame* frame = nullptr;
+  int light = 0;  ///< views of one light show a place alike
   Eigen::Isometry3f T_camera_mesh = Eigen::Isometry3f::Identity();
   Eigen::Vector3f p_mesh_camera = Eigen::Vector3f::Zero();
   Eigen::Vector2f color_offset_px = Eigen::Vector2f::Zero();
@@ -31,11 +32,11 @@ struct Sighting
   Eigen::Vector2f color_px{ 0, 0 };  ///< in the colour image
 };
 
-/// Keyframes without colour image are left out; result[i] tells its keyframe by frame. Throws base::Error
-/// (BAD_INPUT) for images that do not fit the camera.
+/// `lights`: per keyframe, or empty. Keyframes without colour image are left out; result[i] tells its keyframe by
+/// frame. Throws base::Error (BAD_INPUT) for images that do not fit the camera.
 std::vector<TextureView> prepareTextureViews(const geometry::TriangleMesh& mesh,
                                              const std::vector<rgbd::Keyframe>& keyframes,
-                                             const Eigen::Vector2d& color_offset_px);
+                                             const std::vector<int>& lights, const Eigen::Vector2d& color_offset_px);
 
 Sighting sight(const TextureView& view, const Eigen::Vector3f& p_mesh, const Eigen::Vector3f& n_mesh);
 

@@ -27,7 +27,7 @@ TextureResult nothing(base::StatusCode code, const std::string& reason)
 
 /// Per vertex what its views show on the whole, or what surrounds it.
 std::vector<Eigen::Vector3f> vertexColors(const geometry::TriangleMesh& mesh, const std::vector<TextureView>& views,
-                                          const VertexWeights& weights, const std::vector<Eigen::Vector3f>& gains)
+                                          const VertexWeights& weights, const Exposure& exposure)
 {
   std::vector<Eigen::Vector3f> colors(mesh.vertices.size(), Eigen::Vector3f::Zero());
   std::vector<char> known(mesh.vertices.size(), 0);
@@ -37,8 +37,9 @@ std::vector<Eigen::Vector3f> vertexColors(const geometry::TriangleMesh& mesh, co
     for (const VertexView& seen : weights[i])
     {
       const TextureView& view = views[seen.view];
-      colors[i] +=
-          seen.weight * gains[seen.view].cwiseProduct(colorAt(view.smooth_bgr, colorPixel(view, mesh.vertices[i])));
+      const Eigen::Vector3f gains =
+          exposure.view_gains[seen.view].cwiseProduct(exposure.ofLight(view.light, static_cast<std::uint32_t>(i)));
+      colors[i] += seen.weight * gains.cwiseProduct(colorAt(view.smooth_bgr, colorPixel(view, mesh.vertices[i])));
       total += seen.weight;
     }
     known[i] = total > 0;
@@ -145,6 +146,8 @@ std::vector<std::string> TextureOptions::violations() const
   check.inRange("padding_px", padding_px, 1, 64);
   check.inRange("view_preference", view_preference, 0.0, 100.0);
   check.inRange("outlier_tolerance", outlier_tolerance, 1.0, 255.0);
+  check.require("lights", lights.empty() || *std::min_element(lights.begin(), lights.end()) >= 0,
+                "must not be negative");
   check.require("color_offset_px", color_offset_px.allFinite(), "must be finite");
   return check.violations();
 }
@@ -161,6 +164,9 @@ TextureResult textureMesh(const geometry::TriangleMesh& input, const std::vector
       if (vertex >= input.vertices.size())
         return nothing(base::StatusCode::INVALID_ARGUMENT,
                        "a triangle of the mesh has vertex " + std::to_string(vertex) + ", which does not exist");
+  if (!options.lights.empty() && options.lights.size() != keyframes.size())
+    return nothing(base::StatusCode::INVALID_ARGUMENT,
+                   std::to_string(options.lights.size()) + " lights of " + std::to_string(keyframes.size()) + " views");
   if (keyframes.empty())
     return nothing(base::StatusCode::NO_RESULT, "there are no views; record keyframes of the object");
   TextureResult result;
@@ -169,7 +175,7 @@ TextureResult textureMesh(const geometry::TriangleMesh& input, const std::vector
   if (mesh.normals.size() != mesh.vertices.size())
     geometry::computeNormals(&result.textured.mesh);
 
-  const std::vector<TextureView> views = prepareTextureViews(mesh, keyframes, options.color_offset_px);
+  const std::vector<TextureView> views = prepareTextureViews(mesh, keyframes, options.lights, options.color_offset_px);
   if (views.empty())
     return nothing(base::StatusCode::NO_RESULT, "none of the " + std::to_string(keyframes.size()) +
                                                     " views has a colour image and the object in its mask; segment "
@@ -179,10 +185,10 @@ TextureResult textureMesh(const geometry::TriangleMesh& input, const std::vector
   if (std::all_of(weights.begin(), weights.end(), [](const auto& of_vertex) { return of_vertex.empty(); }))
     return nothing(base::StatusCode::NO_RESULT, "none of the " + std::to_string(views.size()) +
                                                     " views sees the mesh; check the poses, masks and depth images");
-  const std::vector<Eigen::Vector3f> gains = solveGains(mesh, views, weights);
-  outvoteOutliers(mesh, views, gains, options.outlier_tolerance, &weights);
+  const Exposure exposure = solveExposure(mesh, views, weights);
+  outvoteOutliers(mesh, views, exposure, options.outlier_tolerance, &weights);
   fadeAtBorders(mesh, views.size(), &weights);
-  const std::vector<Eigen::Vector3f> colors = vertexColors(mesh, views, weights, gains);
+  const std::vector<Eigen::Vector3f> colors = vertexColors(mesh, views, weights, exposure);
 
   control.report("texture", 2, STAGES);
   const std::vector<Chart> charts = makeCharts(mesh, options.texel_size_m);
@@ -193,10 +199,10 @@ TextureResult textureMesh(const geometry::TriangleMesh& input, const std::vector
   result.texel_size_m = atlas.texel_size_m;
 
   control.report("texture", 3, STAGES);
-  const Paint paint{ mesh, views, weights, options.view_preference };
+  const Paint paint{ mesh, views, weights, exposure, options.view_preference };
   std::vector<ViewImage> images(views.size());
   for (std::size_t k = 0; k < views.size(); ++k)
-    images[k] = correctedImage(views[k], gains[k]);
+    images[k] = correctedImage(views[k], exposure.view_gains[k]);
   const TexelOwners owners = findOwners(atlas);
   const cv::Mat texture_bgr = paintAtlas(paint, atlas, owners, images, colors, options.padding_px);
   texture_bgr.convertTo(result.textured.texture_bgr, CV_8UC3);
@@ -206,7 +212,7 @@ TextureResult textureMesh(const geometry::TriangleMesh& input, const std::vector
   result.gains.assign(keyframes.size(), Eigen::Vector3f::Ones());
   for (std::size_t i = 0, k = 0; i < keyframes.size() && k < views.size(); ++i)
     if (views[k].frame == &keyframes[i].frame)
-      result.gains[i] = gains[k++];
+      result.gains[i] = exposure.view_gains[k++];
   control.report("texture", STAGES, STAGES);
   return result;
 }

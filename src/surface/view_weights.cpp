@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "exposure.h"
 #include "mesh_topology.h"
 
 namespace object_modelling::surface
@@ -127,7 +128,7 @@ VertexWeights weighViews(const geometry::TriangleMesh& mesh, const std::vector<T
 }
 
 void outvoteOutliers(const geometry::TriangleMesh& mesh, const std::vector<TextureView>& views,
-                     const std::vector<Eigen::Vector3f>& gains, double tolerance, VertexWeights* weights)
+                     const Exposure& exposure, double tolerance, VertexWeights* weights)
 {
 #pragma omp parallel for schedule(dynamic, 256)
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(weights->size()); ++i)
@@ -141,7 +142,9 @@ void outvoteOutliers(const geometry::TriangleMesh& mesh, const std::vector<Textu
     {
       const TextureView& view = views[seen.view];
       const float step = POSITION_SIGMA_PX * view.gradient.at<float>(nearestPixel(view, mesh.vertices[i]));
-      colors.emplace_back(gains[seen.view].cwiseProduct(colorAt(view.smooth_bgr, colorPixel(view, mesh.vertices[i]))));
+      const Eigen::Vector3f gains =
+          exposure.view_gains[seen.view].cwiseProduct(exposure.ofLight(view.light, static_cast<std::uint32_t>(i)));
+      colors.emplace_back(gains.cwiseProduct(colorAt(view.smooth_bgr, colorPixel(view, mesh.vertices[i]))));
       tolerances.push_back(std::hypot(static_cast<float>(tolerance), step));
     }
     outvoteAt(colors, tolerances, &of_vertex);

@@ -20,9 +20,10 @@ using VertexWeights = std::vector<std::vector<VertexView>>;
 /// blurred and counts less.
 VertexWeights weighViews(const geometry::TriangleMesh& mesh, const std::vector<TextureView>& views);
 
+struct Exposure;
 /// Takes weight from views that disagree with what the others agree on (after the gains, gray levels).
 void outvoteOutliers(const geometry::TriangleMesh& mesh, const std::vector<TextureView>& views,
-                     const std::vector<Eigen::Vector3f>& gains, double tolerance, VertexWeights* weights);
+                     const Exposure& exposure, double tolerance, VertexWeights* weights);
 
 /// Lets the weight of every view fade towards places that it does not see, over some rings of vertices.
 void fadeAtBorders(const geometry::TriangleMesh& mesh, std::size_t view_count, VertexWeights* weights);

@@ -25,6 +25,9 @@ struct TextureOptions
   /// Pixel of a point in the colour image minus its pixel in the depth image, whose camera the poses are of (see
   /// refinement::BundleAdjustmentResult).
   Eigen::Vector2d color_offset_px = Eigen::Vector2d::Zero();
+  /// Per view, from 0: those of one number were taken with the object in one place under one light (one session). Where
+  /// they overlap, others are levelled to the same colour. Empty: all are.
+  std::vector<int> lights;
   std::vector<std::string> violations() const;
 };
 

@@ -1,0 +1,77 @@
+#include "mesh_closing.h"
+
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include "mesh_topology.h"
+
+namespace object_modelling::surface
+{
+namespace
+{
+/// Distance of every vertex along edges to the nearest one that has this mark, as far as `reach_m` (Dijkstra 1959);
+/// infinite beyond.
+std::vector<double> distances_m(const geometry::TriangleMesh& mesh,
+                                const std::vector<std::vector<std::uint32_t>>& neighbours,
+                                const std::vector<char>& marks, bool mark, double reach_m)
+{
+  using Entry = std::pair<double, std::uint32_t>;
+  std::vector<double> distance(mesh.vertices.size(), std::numeric_limits<double>::infinity());
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i)
+    if ((marks[i] != 0) == mark)
+    {
+      distance[i] = 0;
+      open.emplace(0.0, i);
+    }
+  while (!open.empty())
+  {
+    const auto [so_far, i] = open.top();
+    open.pop();
+    if (so_far > distance[i])
+      continue;
+    for (const std::uint32_t j : neighbours[i])
+    {
+      const double through = so_far + (mesh.vertices[j] - mesh.vertices[i]).norm();
+      if (through > reach_m || through >= distance[j])
+        continue;
+      distance[j] = through;
+      open.emplace(through, j);
+    }
+  }
+  return distance;
+}
+
+/// Marks all within the reach of a vertex that has this mark.
+std::vector<char> grown(const geometry::TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& neighbours,
+                        const std::vector<char>& marks, bool mark, double reach_m)
+{
+  const std::vector<double> distance = distances_m(mesh, neighbours, marks, mark, reach_m);
+  std::vector<char> result(marks.size());
+  for (std::size_t i = 0; i < marks.size(); ++i)
+    result[i] = static_cast<char>((distance[i] <= reach_m) == mark);
+  return result;
+}
+}  // namespace
+
+std::vector<char> closedMarks(const geometry::TriangleMesh& mesh, const std::vector<char>& marks, double reach_m)
+{
+  const auto neighbours = vertexNeighbours(mesh);
+  std::vector<char> result = grown(mesh, neighbours, grown(mesh, neighbours, marks, true, reach_m), false, reach_m);
+  for (std::size_t i = 0; i < marks.size(); ++i)  // lengths along edges are not quite the same both ways
+    result[i] = static_cast<char>(result[i] || marks[i]);
+  return result;
+}
+
+std::vector<char> openedMarks(const geometry::TriangleMesh& mesh, const std::vector<char>& marks, double reach_m)
+{
+  const auto neighbours = vertexNeighbours(mesh);
+  std::vector<char> result = grown(mesh, neighbours, grown(mesh, neighbours, marks, false, reach_m), true, reach_m);
+  for (std::size_t i = 0; i < marks.size(); ++i)
+    result[i] = static_cast<char>(result[i] && marks[i]);
+  return result;
+}
+
+}  // namespace object_modelling::surface

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "object_modelling/geometry/triangle_mesh.h"
+
+namespace object_modelling::surface
+{
+/// Morphological closing along the surface: the vertices that are marked, and those of gaps between them that are less
+/// than twice `reach_m` wide (Serra 1982; distances along edges). What a rim of marked vertices has beyond it stays
+/// out.
+std::vector<char> closedMarks(const geometry::TriangleMesh& mesh, const std::vector<char>& marks, double reach_m);
+
+/// Morphological opening: without what is less than twice `reach_m` wide, such as the teeth of a ragged rim.
+std::vector<char> openedMarks(const geometry::TriangleMesh& mesh, const std::vector<char>& marks, double reach_m);
+
+}  // namespace object_modelling::surface

@@ -1,0 +1,81 @@
+#include "../../src/surface/mesh_closing.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace object_modelling::surface
+{
+namespace
+{
+constexpr int SIDE = 41;
+constexpr float STEP_M = 0.001F;
+
+/// A square of SIDE x SIDE vertices, STEP_M apart.
+geometry::TriangleMesh square()
+{
+  geometry::TriangleMesh mesh;
+  for (int y = 0; y < SIDE; ++y)
+    for (int x = 0; x < SIDE; ++x)
+      mesh.vertices.emplace_back(STEP_M * static_cast<float>(x), STEP_M * static_cast<float>(y), 0);
+  for (int y = 0; y + 1 < SIDE; ++y)
+    for (int x = 0; x + 1 < SIDE; ++x)
+    {
+      const auto a = static_cast<std::uint32_t>(y * SIDE + x);
+      mesh.triangles.push_back({ a, a + 1, a + SIDE });
+      mesh.triangles.push_back({ a + 1, a + SIDE + 1, a + SIDE });
+    }
+  return mesh;
+}
+
+/// Marks all x below `left` and from `right` on.
+std::vector<char> sides(int left, int right)
+{
+  std::vector<char> marks(SIDE * SIDE);
+  for (int i = 0; i < SIDE * SIDE; ++i)
+    marks[i] = static_cast<char>(i % SIDE < left || i % SIDE >= right);
+  return marks;
+}
+
+int count(const std::vector<char>& marks)
+{
+  return static_cast<int>(std::count(marks.begin(), marks.end(), 1));
+}
+}  // namespace
+
+TEST(MeshClosing, ClosesGapsThatAreNarrowEnough)
+{
+  const geometry::TriangleMesh mesh = square();
+  EXPECT_EQ(count(closedMarks(mesh, sides(10, 15), 0.0041)), SIDE * SIDE) << "5 mm wide, all along";
+  EXPECT_EQ(closedMarks(mesh, sides(10, 30), 0.0041), sides(10, 30)) << "20 mm wide";
+}
+
+TEST(MeshClosing, DoesNotGrowOverARim)
+{
+  const geometry::TriangleMesh mesh = square();
+  EXPECT_EQ(closedMarks(mesh, sides(20, SIDE), 0.0061), sides(20, SIDE));
+}
+
+TEST(MeshClosing, CutsTeethOff)
+{
+  const geometry::TriangleMesh mesh = square();
+  std::vector<char> marks = sides(20, SIDE);
+  for (int x = 20; x < 26; ++x)
+    marks[10 * SIDE + x] = 1;  // one vertex wide
+  const std::vector<char> opened = openedMarks(mesh, marks, 0.0011);
+  EXPECT_LE(count(opened), count(sides(20, SIDE)) + 1) << "its foot may stay";
+  EXPECT_GE(count(opened), count(sides(20, SIDE)));
+  EXPECT_EQ(count(openedMarks(mesh, std::vector<char>(SIDE * SIDE, 1), 0.0011)), SIDE * SIDE) << "no rim, no teeth";
+}
+
+TEST(MeshClosing, TakesNothingAndAll)
+{
+  const geometry::TriangleMesh mesh = square();
+  const std::vector<char> none(SIDE * SIDE, 0), all(SIDE * SIDE, 1);
+  EXPECT_EQ(closedMarks(mesh, none, 0.01), none);
+  EXPECT_EQ(closedMarks(mesh, all, 0.01), all);
+  EXPECT_EQ(openedMarks(mesh, none, 0.01), none);
+  EXPECT_TRUE(closedMarks({}, {}, 0.01).empty());
+}
+
+}  // namespace object_modelling::surface
