@@ -5,8 +5,7 @@
 
 #include "object_modelling/base/options.h"
 #include "pair_decision.h"
-#include "pair_icp.h"
-#include "pair_measure.h"
+#include "pair_refinement.h"
 #include "proposals.h"
 
 namespace object_modelling::alignment
@@ -89,22 +88,24 @@ void refine(const Part& a, const Part& b, bool many, [[maybe_unused]] int thread
   {
     Candidate& candidate = (*candidates)[i];
     Eigen::Isometry3f& T = candidate.proposal.T_a_b;
-    if (many)
-    {
-      PairIcpOptions icp;
-      icp.coarse = false;
-      icp.gate_m = 2.5 * a.model.spacing_m;
-      icp.last_gate_m = a.model.spacing_m;
-      icp.iterations = 12;
-      icp.color = ColorDetail::BLURRED;
-      T = alignSurfaces(a, b, T, icp);
-      icp.color = ColorDetail::SHARP;
-      icp.gate_m = icp.last_gate_m;
-      T = alignSurfaces(a, b, T, icp);
-    }
-    candidate.quality = measurePair(a, b, T, many);
+    candidate.quality = many ? refinePose(a, b, &T) : measurePair(a, b, T, false);
     candidate.score = evidenceOf(candidate.quality).score();
   }
+}
+/// Refines the candidates finely, keeps those that differ, and decides.
+PairAlignment decided(const Part& a, const Part& b, const PairAlignmentOptions& options,
+                      std::vector<Candidate> candidates, base::JobControl& control)
+{
+  control.checkCancelled();
+  refine(a, b, true, options.threads, &candidates);
+  candidates = distinctBest(candidates, b, DISTINCT_ROTATION_RAD, DISTINCT_POSITION_RATIO, candidates.size());
+  control.checkCancelled();
+  PairAlignment result;
+  for (const Candidate& candidate : candidates)
+    result.candidates.push_back(
+        { candidate.proposal.kind, candidate.proposal.T_a_b.cast<double>(), candidate.quality });
+  decide(a, b, options, &result);
+  return result;
 }
 }  // namespace
 
@@ -116,6 +117,8 @@ std::string nameOf(ProposalKind kind)
       return "features";
     case ProposalKind::STABLE_PLANE:
       return "stable_plane";
+    case ProposalKind::BY_HAND:
+      return "by_hand";
     case ProposalKind::SHAPE:
       break;
   }
@@ -150,17 +153,22 @@ PairAlignment alignParts(const Part& a, const Part& b, const PairAlignmentOption
   refine(a, b, false, options.threads, &candidates);
   candidates = distinctBest(candidates, b, SAME_ROTATION_RAD, SAME_POSITION_RATIO,
                             static_cast<std::size_t>(options.refined_candidates));
-  control.checkCancelled();
-  refine(a, b, true, options.threads, &candidates);
-  candidates = distinctBest(candidates, b, DISTINCT_ROTATION_RAD, DISTINCT_POSITION_RATIO, candidates.size());
-  control.checkCancelled();
+  return decided(a, b, options, std::move(candidates), control);
+}
 
-  PairAlignment result;
-  for (const Candidate& candidate : candidates)
-    result.candidates.push_back(
-        { candidate.proposal.kind, candidate.proposal.T_a_b.cast<double>(), candidate.quality });
-  decide(a, b, options, &result);
-  return result;
+std::optional<PairAlignment> confirmParts(const Part& a, const Part& b, const std::vector<PairCandidate>& known,
+                                          const PairAlignmentOptions& options, base::JobControl& control)
+{
+  if (known.empty())
+    return std::nullopt;
+  std::vector<Candidate> candidates;
+  for (const PairCandidate& candidate : known)
+    candidates.push_back({ { candidate.kind, candidate.T_a_b.cast<float>() }, 0, {} });
+  PairAlignment again = decided(a, b, options, std::move(candidates), control);
+  if (!again.accepted || !same(again.candidates.front().T_a_b.cast<float>(), known.front().T_a_b.cast<float>(), b,
+                               DISTINCT_ROTATION_RAD, DISTINCT_POSITION_RATIO))
+    return std::nullopt;
+  return again;
 }
 
 }  // namespace object_modelling::alignment

@@ -183,6 +183,7 @@ PartialModel makePartialModel(const keyframes::Session& session, const std::vect
   {
     model.points.push_back(fused.cloud.points[index]);
     model.normals.push_back(fused.cloud.normals[index]);
+    model.colors_rgb.push_back(fused.cloud.colors[index]);
   }
   if (options.use_color)
     model.colors = invariantColors(fused.cloud, kept);

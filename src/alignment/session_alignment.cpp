@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "object_modelling/base/options.h"
 #include "object_modelling/base/status.h"
@@ -18,6 +20,26 @@ std::string joined(const std::vector<std::string>& names)
   for (const std::string& name : names)
     text += (text.empty() ? "'" : ", '") + name + "'";
   return text;
+}
+
+std::vector<std::string> idsOf(const std::vector<PartialModel>& parts)
+{
+  std::vector<std::string> ids;
+  for (const PartialModel& part : parts)
+    ids.push_back(part.session_id);
+  return ids;
+}
+
+base::Status checked(const std::vector<PartialModel>& parts)
+{
+  if (parts.empty())
+    return { base::StatusCode::INVALID_ARGUMENT, "no sessions to align; name at least one" };
+  std::vector<std::string> ids = idsOf(parts);
+  std::sort(ids.begin(), ids.end());
+  const auto twice = std::adjacent_find(ids.begin(), ids.end());
+  if (twice != ids.end())
+    return { base::StatusCode::INVALID_ARGUMENT, "session '" + *twice + "' is named twice; name each once" };
+  return {};
 }
 
 std::string reasonsOf(const AlignmentResult& result)
@@ -61,44 +83,46 @@ private:
   int threads_;
   std::vector<std::unique_ptr<Part>> prepared_;
 };
+/// The pair in the order in which it is known, from there if that still holds.
+AlignmentEdge found(const AlignmentEdge* known, Parts& parts, const std::vector<std::string>& ids, std::size_t i,
+                    std::size_t j, const PairAlignmentOptions& options, base::JobControl& control)
+{
+  if (known && known->session_a != ids[i])
+    std::swap(i, j);
+  std::optional<PairAlignment> pair;
+  if (known && known->accepted)
+    pair = confirmParts(parts.at(i), parts.at(j), known->candidates, options, control);
+  if (!pair)
+    pair = alignParts(parts.at(i), parts.at(j), options, control);
+  AlignmentEdge edge;
+  edge.session_a = ids[i];
+  edge.session_b = ids[j];
+  edge.accepted = pair->accepted;
+  edge.reason = pair->reason;
+  edge.candidates = pair->candidates;
+  return edge;
+}
 }  // namespace
 
-AlignmentResult alignSessions(const std::vector<PartialModel>& parts, const std::vector<AlignmentEdge>& known_edges,
-                              const PairAlignmentOptions& options, base::JobControl& control)
+std::string nameOf(Decision decision)
 {
-  base::checked(options);
+  switch (decision)
+  {
+    case Decision::ACCEPTED:
+      return "accepted";
+    case Decision::REFUSED:
+      return "refused";
+    case Decision::AUTOMATIC:
+      break;
+  }
+  return "automatic";
+}
+
+AlignmentResult placeSessions(const std::vector<PartialModel>& parts, std::vector<AlignmentEdge> edges)
+{
   AlignmentResult result;
-  if (parts.empty())
-  {
-    result.status = { base::StatusCode::INVALID_ARGUMENT, "no sessions to align; name at least one" };
-    return result;
-  }
-  std::vector<std::string> ids;
-  for (const PartialModel& part : parts)
-  {
-    if (std::find(ids.begin(), ids.end(), part.session_id) != ids.end())
-    {
-      result.status = { base::StatusCode::INVALID_ARGUMENT,
-                        "session '" + part.session_id + "' is named twice; name each once" };
-      return result;
-    }
-    ids.push_back(part.session_id);
-  }
-  const std::size_t pairs = parts.size() * (parts.size() - 1) / 2;
-  control.report("align", 0, std::max<std::size_t>(1, pairs));
-  Parts prepared(parts, options.threads);
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    for (std::size_t j = i + 1; j < parts.size(); ++j)
-    {
-      if (const AlignmentEdge* known = find(known_edges, ids[i], ids[j]))
-        result.edges.push_back(*known);
-      else
-      {
-        const PairAlignment found = alignParts(prepared.at(i), prepared.at(j), options, control);
-        result.edges.push_back({ ids[i], ids[j], found.accepted, false, found.reason, found.candidates });
-      }
-      control.report("align", result.edges.size(), pairs);
-    }
+  const std::vector<std::string> ids = idsOf(parts);
+  result.edges = std::move(edges);
   result.placements = placeByEdges(parts, &result.edges);
   for (const std::string& id : ids)
     if (std::none_of(result.placements.begin(), result.placements.end(),
@@ -114,8 +138,34 @@ AlignmentResult alignSessions(const std::vector<PartialModel>& parts, const std:
   else if (!result.left_out.empty())
     result.status = { base::StatusCode::OK, "left out, since they connect to none of the others: sessions " +
                                                 joined(result.left_out) + reasonsOf(result) };
-  control.report("align", std::max<std::size_t>(1, pairs), std::max<std::size_t>(1, pairs));
   return result;
+}
+
+AlignmentResult alignSessions(const std::vector<PartialModel>& parts, const std::vector<AlignmentEdge>& known_edges,
+                              const PairAlignmentOptions& options, base::JobControl& control)
+{
+  base::checked(options);
+  AlignmentResult refused;
+  refused.status = checked(parts);
+  if (!refused.status.ok())
+    return refused;
+  const std::vector<std::string> ids = idsOf(parts);
+  const std::size_t pairs = std::max<std::size_t>(1, parts.size() * (parts.size() - 1) / 2);
+  control.report("align", 0, pairs);
+  Parts prepared(parts, options.threads);
+  std::vector<AlignmentEdge> edges;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (std::size_t j = i + 1; j < parts.size(); ++j)
+    {
+      const AlignmentEdge* known = find(known_edges, ids[i], ids[j]);
+      if (known && known->decision != Decision::AUTOMATIC)
+        edges.push_back(*known);
+      else
+        edges.push_back(found(known, prepared, ids, i, j, options, control));
+      control.report("align", edges.size(), pairs);
+    }
+  control.report("align", pairs, pairs);
+  return placeSessions(parts, std::move(edges));
 }
 
 }  // namespace object_modelling::alignment

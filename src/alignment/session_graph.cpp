@@ -67,7 +67,11 @@ public:
     }
     return std::nullopt;
   }
-  double probability(int edge) const { return edges_[edge].best()->quality.probability; }
+  /// A person's word is certain.
+  double probability(int edge) const
+  {
+    return edges_[edge].decision == Decision::ACCEPTED ? 1.0 : edges_[edge].best()->quality.probability;
+  }
 
 private:
   const std::vector<AlignmentEdge>& edges_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "object_modelling/alignment/pair_alignment.h"
@@ -29,5 +30,10 @@ struct Part
 
 /// As alignPair(), of parts that serve for several pairs.
 PairAlignment alignParts(const Part& a, const Part& b, const PairAlignmentOptions& options, base::JobControl& control);
+
+/// The poses known from before, best first, moved into place and judged again; nothing if the best of them is not
+/// accepted any more, or no longer the best. Costs a tenth of alignParts().
+std::optional<PairAlignment> confirmParts(const Part& a, const Part& b, const std::vector<PairCandidate>& known,
+                                          const PairAlignmentOptions& options, base::JobControl& control);
 
 }  // namespace object_modelling::alignment

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "command.h"
-#include "object_modelling/pipeline/session_jobs.h"
+#include "object_modelling/pipeline/align_sessions.h"
 #include "report_text.h"
 
 namespace object_modelling::cli
@@ -15,7 +15,9 @@ struct Arguments
   std::string object_id, store;
   std::vector<std::string> session_ids;
   pipeline::AlignOptions options;
-  bool grey = false;
+  bool grey = false, anew = false;
+  std::vector<std::string> accept, refuse, forget;  ///< two sessions each, or none
+  std::size_t candidate = 0;
 };
 
 /// A file that is not there is a mistyped name: opening it would make an empty store.
@@ -25,13 +27,15 @@ void requireStore(const std::string& connection)
     throw base::Error(base::StatusCode::NOT_FOUND, "no keyframe store at '" + connection + "'");
 }
 
-std::vector<std::string> sessionsOf(const std::string& object_id, keyframes::SessionStore& store)
+/// What a person decided comes first.
+void decide(const Arguments& arguments, keyframes::SessionStore& store)
 {
-  std::vector<std::string> ids;
-  for (const keyframes::Session& session : store.listSessions())
-    if (session.object_id == object_id)
-      ids.push_back(session.id);
-  return ids;
+  if (!arguments.forget.empty())
+    pipeline::forgetAlignment(store, arguments.forget[0], arguments.forget[1]);
+  if (!arguments.refuse.empty())
+    pipeline::refuseAlignment(store, arguments.refuse[0], arguments.refuse[1]);
+  if (!arguments.accept.empty())
+    pipeline::acceptAlignment(store, arguments.accept[0], arguments.accept[1], arguments.candidate);
 }
 
 CommandOutput run(const Arguments& arguments, base::JobControl& control)
@@ -40,13 +44,15 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
   const std::unique_ptr<keyframes::SessionStore> store = keyframes::openSqlStore(arguments.store);
   std::vector<std::string> ids = arguments.session_ids;
   if (ids.empty())
-    ids = sessionsOf(arguments.object_id, *store);
+    ids = pipeline::sessionsOf(*store, arguments.object_id);
   if (ids.empty())
     throw base::Error(base::StatusCode::NOT_FOUND, "store '" + arguments.store + "' has no session of object '" +
                                                        arguments.object_id +
                                                        "': record one with this object id, or name --session");
   pipeline::AlignOptions options = arguments.options;
   options.part.use_color = !arguments.grey;
+  options.use_known = !arguments.anew;
+  decide(arguments, *store);
   const alignment::AlignmentResult aligned = pipeline::alignSessions(*store, ids, options, control);
   if (!aligned.status.ok())
     throw base::Error(aligned.status.code, aligned.status.message);
@@ -62,7 +68,7 @@ void addAlignCommand(CLI::App& app, Command* chosen)
 {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
-      "align", "Relative poses of an object's sessions, recorded in different resting poses; writes nothing");
+      "align", "Relative poses of an object's sessions, recorded in different resting poses; kept in the store");
   command->add_option("object_id", arguments->object_id, "Object whose sessions are aligned")->required();
   command->add_option("--store", arguments->store, "Keyframe store with segmented sessions")->required();
   command->add_option("--session", arguments->session_ids, "Align these sessions instead of all of the object");
@@ -72,6 +78,15 @@ void addAlignCommand(CLI::App& app, Command* chosen)
   command->add_option("--min-overlap", arguments->options.pair.min_overlap_ratio, "Least share of surface in common")
       ->capture_default_str();
   command->add_option("--seed", arguments->options.pair.seed, "Of the random samples")->capture_default_str();
+  command->add_flag("--anew", arguments->anew, "Search every pair again, but for those that a person decided");
+  CLI::Option* accept =
+      command->add_option("--accept", arguments->accept, "Two sessions: their candidate is right, whatever its figures")
+          ->expected(2);
+  command->add_option("--candidate", arguments->candidate, "Which one --accept means, 0 the best")
+      ->needs(accept)
+      ->capture_default_str();
+  command->add_option("--refuse", arguments->refuse, "Two sessions that are not to be joined")->expected(2);
+  command->add_option("--forget", arguments->forget, "Two sessions: forget what was decided on them")->expected(2);
   command->footer("Example: object_modelling align mustard --store sessions.sqlite --json");
   command->callback([arguments, chosen]
                     { *chosen = [arguments](base::JobControl& control) { return run(*arguments, control); }; });

@@ -48,6 +48,7 @@ nlohmann::json toJson(const alignment::AlignmentResult& result)
       candidates.push_back(toJson(edge.candidates[i]));
     json["edges"].push_back({ { "session_a", edge.session_a },
                               { "session_b", edge.session_b },
+                              { "decision", alignment::nameOf(edge.decision) },
                               { "accepted", edge.accepted },
                               { "used", edge.used },
                               { "reason", edge.reason },
@@ -63,7 +64,8 @@ std::string toText(const alignment::AlignmentResult& result)
   for (const alignment::AlignmentEdge& edge : result.edges)
   {
     out << "pair      " << edge.session_a << " and " << edge.session_b << ": "
-        << (edge.accepted ? edge.used ? "accepted" : "accepted, not used" : "refused");
+        << (edge.accepted ? edge.used ? "accepted" : "accepted, not used" : "refused")
+        << (edge.decision == alignment::Decision::AUTOMATIC ? "" : " by a person");
     if (const alignment::PairCandidate* best = edge.best())
       out << " (probability " << best->quality.probability << ", overlap " << best->quality.overlap_ratio
           << ", free-space violation " << best->quality.fsv_ratio << ", surfaces " << 1000 * best->quality.rmse_m

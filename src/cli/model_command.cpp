@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "command.h"
+#include "object_modelling/pipeline/align_sessions.h"
 #include "object_modelling/pipeline/build_object.h"
 #include "object_modelling/pipeline/session_jobs.h"
 #include "object_modelling/ros_bridge/recording.h"
@@ -86,8 +87,21 @@ void requireNewSessions(const std::vector<std::string>& recordings, keyframes::S
   }
 }
 
+/// Those of the object that the store has already take part.
+std::vector<std::string> storedSessions(const Arguments& arguments, keyframes::SessionStore& store)
+{
+  std::vector<std::string> ids = pipeline::sessionsOf(store, arguments.object_id);
+  if (ids.empty() && arguments.recordings.empty())
+    throw base::Error(base::StatusCode::INVALID_ARGUMENT, "store '" + arguments.store + "' has no session of object '" +
+                                                              arguments.object_id + "': name a recording");
+  return ids;
+}
+
 CommandOutput run(const Arguments& arguments, base::JobControl& control)
 {
+  if (arguments.recordings.empty() && arguments.store.empty())
+    throw base::Error(base::StatusCode::INVALID_ARGUMENT,
+                      "no recording: name one, or --store with sessions of '" + arguments.object_id + "'");
   // Opened first: a database that cannot be written must not cost a recording's processing.
   database::ObjectDatabase database(arguments.database, true);
   std::unique_ptr<TemporaryStore> temporary;
@@ -103,7 +117,7 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
   CommandOutput output;
   output.json["object_id"] = arguments.object_id;
   output.json["sessions"] = nlohmann::json::array();
-  std::vector<std::string> session_ids;
+  std::vector<std::string> session_ids = storedSessions(arguments, store);
   pipeline::BuildOptions options;
   for (const std::string& recording : arguments.recordings)
     session_ids.push_back(processRecording(recording, arguments, store, control, &output));
@@ -136,10 +150,13 @@ void addModelCommand(CLI::App& app, Command* chosen)
   CLI::App* command = app.add_subcommand("model", "Object model from recordings, one session each");
   command->add_option("object_id", arguments->object_id, "Name of the object in the database (letters, digits, _ . -)")
       ->required();
-  command->add_option("recordings", arguments->recordings, "TUM-style folders or ROS bags")->required();
+  command->add_option("recordings", arguments->recordings,
+                      "TUM-style folders or ROS bags; none with --store: build from the sessions that it has");
   command->add_option("--database", arguments->database, "Folder of the object database; made if missing")->required();
-  command->add_option("--store", arguments->store,
-                      "Keep the sessions in this keyframe store (SQLite file); without it they are not kept");
+  command->add_option(
+      "--store", arguments->store,
+      "Keep the sessions in this keyframe store (SQLite file), and build from those of the object that it has "
+      "too; without it they are not kept");
   command->add_option("--name", arguments->name, "Name for people");
   command
       ->add_option(

@@ -50,6 +50,17 @@ void checkSession(const Session& session)
     throw Error(StatusCode::INVALID_ARGUMENT, sessionText(session.id) + ": camera_frame_id holds a zero byte");
 }
 
+void checkAlignment(const AlignmentRecord& record)
+{
+  checkSessionId(record.session_a);
+  checkSessionId(record.session_b);
+  const std::string pair = "alignment of " + sessionText(record.session_a) + " and " + sessionText(record.session_b);
+  if (record.session_a == record.session_b)
+    throw Error(StatusCode::INVALID_ARGUMENT, pair + ": a session is not aligned with itself; name two");
+  if (record.findings.find('\0') != std::string::npos)
+    throw Error(StatusCode::INVALID_ARGUMENT, pair + ": its findings hold a zero byte");
+}
+
 /// An update that names a keyframe twice says two things; which one is meant is not ours to guess.
 template <typename Update>
 void checkDistinct(const std::string& session_id, const std::vector<Update>& updates)
@@ -165,6 +176,25 @@ public:
                         selectSession(sql, session_id);
                         for (const MaskUpdate& update : updates)
                           updateMask(sql, connection_.dialect(), session_id, update);
+                      });
+  }
+
+  std::vector<AlignmentRecord> alignments() override
+  {
+    std::vector<AlignmentRecord> records;
+    connection_.read("listing alignments", [&](soci::session& sql) { records = selectAlignments(sql); });
+    return records;
+  }
+
+  void updateAlignments(const std::vector<AlignmentRecord>& records) override
+  {
+    for (const AlignmentRecord& record : records)
+      checkAlignment(record);
+    connection_.write("updating alignments",
+                      [&](soci::session& sql)
+                      {
+                        for (const AlignmentRecord& record : records)
+                          replaceAlignment(sql, record);
                       });
   }
 

@@ -26,4 +26,8 @@ KeyframeRow selectKeyframe(soci::session& sql, const SqlDialect& dialect, const 
 void updatePose(soci::session& sql, const std::string& session_id, const PoseUpdate& update);
 void updateMask(soci::session& sql, const SqlDialect& dialect, const std::string& session_id, const MaskUpdate& update);
 
+std::vector<AlignmentRecord> selectAlignments(soci::session& sql);
+/// Of that pair, in either order; one without findings is only taken away.
+void replaceAlignment(soci::session& sql, const AlignmentRecord& record);
+
 }  // namespace object_modelling::keyframes

@@ -40,6 +40,13 @@ void addCalibrationAndReport(soci::session& sql, const SqlDialect&)
   sql << "ALTER TABLE sessions ADD COLUMN refinement_report TEXT NOT NULL DEFAULT ''";
 }
 
+void createAlignments(soci::session& sql, const SqlDialect&)
+{
+  const std::string of_session = " TEXT NOT NULL REFERENCES sessions (session_id) ON DELETE CASCADE, ";
+  sql << "CREATE TABLE session_alignments (session_a" << of_session << "session_b" << of_session
+      << "findings TEXT NOT NULL, PRIMARY KEY (session_a, session_b))";
+}
+
 int readVersion(soci::session& sql, const SqlDialect& dialect)
 {
   const std::vector<std::string> tables = dialect.tables(sql);
@@ -58,7 +65,7 @@ int readVersion(soci::session& sql, const SqlDialect& dialect)
 
 const std::vector<Migration>& storeMigrations()
 {
-  static const std::vector<Migration> MIGRATIONS = { createTables, addCalibrationAndReport };
+  static const std::vector<Migration> MIGRATIONS = { createTables, addCalibrationAndReport, createAlignments };
   return MIGRATIONS;
 }
 

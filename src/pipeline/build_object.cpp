@@ -40,6 +40,8 @@ struct Views
   std::vector<keyframes::Session> sessions;
   std::vector<rgbd::Keyframe> keyframes;  // those that see the object; T_session_camera holds T_reference_camera
   std::vector<ViewOrigin> origins;        // of each of them
+  // The lamps stay where they are while the object is turned over: every session is under a light of its own.
+  std::vector<int> lights;
   std::vector<geometry::Plane> support_planes_reference;  // of each session that has one
 };
 
@@ -61,6 +63,7 @@ base::Status loadViews(keyframes::SessionStore& store, const std::vector<alignme
       if (keyframe.frame.object_mask.empty())
         continue;
       views->origins.push_back({ placement.session_id, id });
+      views->lights.push_back(static_cast<int>(views->sessions.size()) - 1);
       keyframe.id = static_cast<int>(views->keyframes.size());
       keyframe.T_session_camera = placement.T_reference_session * keyframe.T_session_camera;
       views->keyframes.push_back(std::move(keyframe));
@@ -111,6 +114,14 @@ Eigen::Vector2d meanColorOffset_px(const std::vector<keyframes::Session>& sessio
   for (const keyframes::Session& session : sessions)
     sum_px += session.calibration.color_offset_px;
   return sum_px / static_cast<double>(sessions.size());
+}
+
+std::vector<std::string> idsOf(const std::vector<alignment::SessionPlacement>& placements)
+{
+  std::vector<std::string> ids;
+  for (const alignment::SessionPlacement& placement : placements)
+    ids.push_back(placement.session_id);
+  return ids;
 }
 
 /// A model is worth having without its texture: what is wrong becomes the result's status.
@@ -244,7 +255,9 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
   std::string unrefined;
   if (placements.size() > 1)  // one session has been refined already
   {
-    unrefined = refineJointly(meanColorOffset_px(views.sessions), &views.keyframes, control);
+    unrefined =
+        refineJointly({ meanColorOffset_px(views.sessions), views.lights, printHolds(store, idsOf(placements)) },
+                      &views.keyframes, control);
     timer.finish("joint refinement");
   }
 
@@ -252,6 +265,7 @@ BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase
   surface::TextureOptions texture_options = options.texture;
   fusion_options.color_offset_px += meanColorOffset_px(views.sessions);
   texture_options.color_offset_px += meanColorOffset_px(views.sessions);
+  texture_options.lights = views.lights;
   fusion::CloudFusionResult fused = fusion::fuse(views.keyframes, fusion_options, control);
   report.status = fused.status;
   if (!report.status.ok())

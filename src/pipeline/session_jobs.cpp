@@ -1,6 +1,5 @@
 #include "object_modelling/pipeline/session_jobs.h"
 
-#include "object_modelling/base/options.h"
 #include "object_modelling/pipeline/session_refinement.h"
 #include "session_loading.h"
 
@@ -58,44 +57,6 @@ refinement::BundleAdjustmentResult refineSession(keyframes::SessionStore& store,
   refinement::BundleAdjustmentResult result;
   result.status = refined.status;
   return result;
-}
-
-std::vector<std::string> AlignOptions::violations() const
-{
-  base::OptionsCheck check("align_sessions");
-  check.include(part.violations());
-  check.include(pair.violations());
-  return check.violations();
-}
-
-alignment::AlignmentResult alignSessions(keyframes::SessionStore& store, const std::vector<std::string>& session_ids,
-                                         const AlignOptions& options, base::JobControl& control)
-{
-  base::checked(options);
-  std::vector<keyframes::Session> sessions;
-  for (const std::string& id : session_ids)  // a name that is not known must not cost the work on the others
-    sessions.push_back(store.session(id));
-  if (sessions.size() == 1)
-  {
-    control.report("align", 1, 1);
-    alignment::AlignmentResult alone;
-    alone.placements.push_back({ sessions.front().id, Eigen::Isometry3d::Identity() });
-    return alone;
-  }
-  std::vector<alignment::PartialModel> parts;
-  for (const keyframes::Session& session : sessions)
-  {
-    const std::vector<rgbd::Keyframe> keyframes = loadReported(store, session.id, control);
-    if (keyframes.empty())
-    {
-      alignment::AlignmentResult refused;
-      refused.status = noKeyframes(session.id);
-      return refused;
-    }
-    control.report("fuse", parts.size(), sessions.size());
-    parts.push_back(alignment::makePartialModel(session, keyframes, options.part, control));
-  }
-  return alignment::alignSessions(parts, {}, options.pair, control);
 }
 
 }  // namespace object_modelling::pipeline

@@ -48,7 +48,10 @@ double displacement_m(const geometry::Vector6d& motion, const Eigen::Isometry3d&
 class Solver
 {
 public:
-  Solver(IcpProblem* problem, IcpOutcome* outcome) : problem_(*problem), outcome_(*outcome) {}
+  Solver(const std::vector<int>& bodies, IcpProblem* problem, IcpOutcome* outcome)
+      : bodies_(bodies), problem_(*problem), outcome_(*outcome)
+  {
+  }
 
   /// One step that lowers the cost; gives the largest displacement, 0 if there is none.
   double step()
@@ -59,7 +62,7 @@ public:
       cost += pair.cost;
     for (int trial = 0; trial < MAX_TRIALS; ++trial)
     {
-      const auto motions = solveMotions(equations, outcome_.members, outcome_.T_session_camera.size(), damping_);
+      const auto motions = solveMotions(equations, outcome_.members, bodies_, damping_);
       if (motions)
       {
         std::vector<Eigen::Isometry3d> moved = outcome_.T_session_camera;
@@ -83,6 +86,7 @@ public:
   }
 
 private:
+  const std::vector<int>& bodies_;
   IcpProblem& problem_;
   IcpOutcome& outcome_;
   double damping_ = 1e-4;
@@ -122,11 +126,12 @@ IcpOutcome runIcp(const std::vector<rgbd::Keyframe>& keyframes, const MultiViewI
   for (const rgbd::Keyframe& keyframe : keyframes)
     start.push_back(keyframe.T_session_camera);
   outcome.T_session_camera = start;
-  outcome.members = connectedKeyframes(keyframes.size(), problem->edges());
+  const std::vector<int> bodies = bodiesOf(options, keyframes.size());
+  outcome.members = connectedKeyframes(bodies, problem->edges());
   if (outcome.members.size() < 2)
     return outcome;
   const std::vector<IcpStage> stages = stagesOf(options);
-  Solver solver(problem, &outcome);
+  Solver solver(bodies, problem, &outcome);
   const auto refine = [&](const IcpStage& stage)
   {
     const std::size_t first = outcome.rmse_m.size();
@@ -150,10 +155,10 @@ IcpOutcome runIcp(const std::vector<rgbd::Keyframe>& keyframes, const MultiViewI
   {
     problem->match(outcome.T_session_camera, stages.back());
     const int worst = misfit(*problem, outcome.members);
-    if (worst < 0)
+    if (worst < 0 || !options.bodies.empty())  // one of a body stands or falls with the rest
       break;
     problem->leaveOut(worst);
-    const std::vector<int> members = connectedKeyframes(keyframes.size(), problem->edges());
+    const std::vector<int> members = connectedKeyframes(bodies, problem->edges());
     for (const int k : outcome.members)
       if (!std::binary_search(members.begin(), members.end(), k))
         outcome.T_session_camera[k] = start[k];

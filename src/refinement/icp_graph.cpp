@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include <opencv2/core/utility.hpp>
 
@@ -32,6 +33,7 @@ std::vector<IcpEdge> overlapGraph(const std::vector<rgbd::Keyframe>& keyframes, 
   prediction.object_only = options.object_only;
   prediction.max_view_angle_rad = options.max_view_angle_rad;
   const int count = static_cast<int>(keyframes.size());
+  const std::vector<int> bodies = bodiesOf(options, keyframes.size());
   Eigen::MatrixXd overlap = Eigen::MatrixXd::Zero(count, count);
   cv::parallel_for_(
       cv::Range(0, count),
@@ -39,7 +41,7 @@ std::vector<IcpEdge> overlapGraph(const std::vector<rgbd::Keyframe>& keyframes, 
       {
         for (int a = range.start; a < range.end; ++a)
           for (int b = 0; b < count; ++b)
-            if (a != b)
+            if (bodies[a] != bodies[b])
               overlap(a, b) = predictedOverlap(keyframes[a], keyframes[b], prediction);
       },
       options.threads);
@@ -50,7 +52,7 @@ std::vector<IcpEdge> overlapGraph(const std::vector<rgbd::Keyframe>& keyframes, 
   {
     std::vector<int> partners;
     for (int b = 0; b < count; ++b)
-      if (a != b && shared(a, b) >= options.min_overlap_ratio)
+      if (bodies[a] != bodies[b] && shared(a, b) >= options.min_overlap_ratio)
         partners.push_back(b);
     std::stable_sort(partners.begin(), partners.end(), [&](int x, int y) { return shared(a, x) > shared(a, y); });
     for (const int b : spread(partners, options.max_partners))
@@ -62,12 +64,25 @@ std::vector<IcpEdge> overlapGraph(const std::vector<rgbd::Keyframe>& keyframes, 
   return graph;
 }
 
-std::vector<int> connectedKeyframes(std::size_t keyframe_count, const std::vector<IcpEdge>& edges)
+std::vector<int> bodiesOf(const MultiViewIcpOptions& options, std::size_t keyframe_count)
 {
-  const auto count = static_cast<Eigen::Index>(keyframe_count);
+  if (!options.bodies.empty())
+    return options.bodies;
+  std::vector<int> bodies(keyframe_count);
+  std::iota(bodies.begin(), bodies.end(), 0);
+  return bodies;
+}
+
+std::vector<int> connectedKeyframes(const std::vector<int>& bodies, const std::vector<IcpEdge>& edges)
+{
+  const auto count = static_cast<Eigen::Index>(bodies.size());
   Eigen::MatrixXi linked = Eigen::MatrixXi::Zero(count, count);
   for (const IcpEdge& edge : edges)
     linked(edge.a, edge.b) = linked(edge.b, edge.a) = 1;
+  for (Eigen::Index a = 0; a < count; ++a)
+    for (Eigen::Index b = 0; b < count; ++b)
+      if (a != b && bodies[a] == bodies[b])
+        linked(a, b) = 1;
   return largestComponent(linked, 1);
 }
 

@@ -17,7 +17,10 @@ struct IcpEdge
 /// the others, which hold the whole together better than neighbours alone do. Ordered by (a, b).
 std::vector<IcpEdge> overlapGraph(const std::vector<rgbd::Keyframe>& keyframes, const MultiViewIcpOptions& options);
 
-/// The largest set of keyframes that the edges connect, ascending.
-std::vector<int> connectedKeyframes(std::size_t keyframe_count, const std::vector<IcpEdge>& edges);
+/// The largest set of keyframes that the edges, and their bodies, connect; ascending.
+std::vector<int> connectedKeyframes(const std::vector<int>& bodies, const std::vector<IcpEdge>& edges);
+
+/// The bodies of the options; each keyframe one of its own if they name none.
+std::vector<int> bodiesOf(const MultiViewIcpOptions& options, std::size_t keyframe_count);
 
 }  // namespace object_modelling::refinement

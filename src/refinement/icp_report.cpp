@@ -130,8 +130,8 @@ void reportErrors(const std::vector<rgbd::Keyframe>& keyframes, const IcpProblem
 }
 
 /// Covariances and free directions, at the outcome.
-void reportKnowledge(const std::vector<rgbd::Keyframe>& keyframes, bool object_only, const IcpProblem& problem,
-                     const IcpOutcome& outcome, MultiViewIcpResult* result)
+void reportKnowledge(const std::vector<rgbd::Keyframe>& keyframes, const std::vector<int>& bodies, bool object_only,
+                     const IcpProblem& problem, const IcpOutcome& outcome, MultiViewIcpResult* result)
 {
   std::vector<PairEquations> equations = problem.equations(outcome.T_session_camera);
   const std::vector<geometry::Matrix6d> noise = problem.noise(outcome.T_session_camera);
@@ -153,7 +153,7 @@ void reportKnowledge(const std::vector<rgbd::Keyframe>& keyframes, bool object_o
   prior << Eigen::Vector3d::Constant(1 / (UNKNOWN_M * UNKNOWN_M)),
       Eigen::Vector3d::Constant(1 / (UNKNOWN_RAD * UNKNOWN_RAD));
   const std::vector<geometry::Matrix6d> covariances =
-      motionCovariances(equations, outcome.members, keyframes.size(), prior.asDiagonal());
+      motionCovariances(equations, outcome.members, bodies, prior.asDiagonal());
   for (std::size_t i = 1; i < outcome.members.size(); ++i)
   {
     const int k = outcome.members[i];
@@ -204,7 +204,7 @@ MultiViewIcpResult reportOf(const std::vector<rgbd::Keyframe>& keyframes, const 
   }
   reportErrors(keyframes, problem, result.T_session_camera, outcome.T_session_camera, &result);
   result.T_session_camera = outcome.T_session_camera;
-  reportKnowledge(keyframes, options.object_only, problem, outcome, &result);
+  reportKnowledge(keyframes, bodiesOf(options, keyframes.size()), options.object_only, problem, outcome, &result);
   return result;
 }
 

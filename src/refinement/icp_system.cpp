@@ -1,5 +1,7 @@
 #include "icp_system.h"
 
+#include <map>
+
 #include <Eigen/SparseCholesky>
 
 namespace object_modelling::refinement
@@ -8,14 +10,25 @@ namespace
 {
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Row of each keyframe's unknowns, -1 for those that do not move.
-std::vector<int> rowsOf(const std::vector<int>& members, std::size_t keyframe_count)
+/// Where the unknowns of each keyframe's body are, -1 for those that do not move.
+struct Rows
 {
-  std::vector<int> rows(keyframe_count, -1);
-  for (std::size_t i = 1; i < members.size(); ++i)
-    rows[members[i]] = static_cast<int>(6 * (i - 1));
-  return rows;
-}
+  Rows(const std::vector<int>& members, const std::vector<int>& bodies) : of(bodies.size(), -1)
+  {
+    std::map<int, int> row_of_body;
+    for (const int k : members)
+    {
+      const auto [body, is_new] = row_of_body.emplace(bodies[k], unknowns);
+      if (is_new && row_of_body.size() == 1)
+        body->second = -1;
+      else if (is_new)
+        unknowns += 6;
+      of[k] = body->second;
+    }
+  }
+  std::vector<int> of;
+  int unknowns = 0;
+};
 
 /// Lower triangle of the normal equations; every diagonal entry exists.
 SparseMatrix matrixOf(const std::vector<PairEquations>& pairs, const std::vector<int>& rows, int unknowns,
@@ -34,6 +47,8 @@ SparseMatrix matrixOf(const std::vector<PairEquations>& pairs, const std::vector
   for (const PairEquations& pair : pairs)
   {
     const int row_a = rows[pair.a], row_b = rows[pair.b];
+    if (row_a == row_b)
+      continue;  // their body moves both alike
     if (row_a >= 0)
       add(row_a, row_a, pair.A);
     if (row_b >= 0)
@@ -48,11 +63,10 @@ SparseMatrix matrixOf(const std::vector<PairEquations>& pairs, const std::vector
 }  // namespace
 
 std::optional<std::vector<geometry::Vector6d>> solveMotions(const std::vector<PairEquations>& pairs,
-                                                            const std::vector<int>& members, std::size_t keyframe_count,
-                                                            double damping)
+                                                            const std::vector<int>& members,
+                                                            const std::vector<int>& bodies, double damping)
 {
-  const std::vector<int> rows = rowsOf(members, keyframe_count);
-  const int unknowns = 6 * (static_cast<int>(members.size()) - 1);
+  const auto [rows, unknowns] = Rows(members, bodies);
   SparseMatrix matrix = matrixOf(pairs, rows, unknowns, geometry::Matrix6d::Zero());
   const double least = 1e-9 * (1 + Eigen::VectorXd(matrix.diagonal()).maxCoeff());
   for (int i = 0; i < unknowns; ++i)
@@ -71,24 +85,23 @@ std::optional<std::vector<geometry::Vector6d>> solveMotions(const std::vector<Pa
   const Eigen::VectorXd solution = factors.solve(right);
   if (!solution.allFinite())
     return std::nullopt;
-  std::vector<geometry::Vector6d> motions(keyframe_count, geometry::Vector6d::Zero());
-  for (std::size_t k = 0; k < keyframe_count; ++k)
+  std::vector<geometry::Vector6d> motions(bodies.size(), geometry::Vector6d::Zero());
+  for (std::size_t k = 0; k < bodies.size(); ++k)
     if (rows[k] >= 0)
       motions[k] = solution.segment<6>(rows[k]);
   return motions;
 }
 
 std::vector<geometry::Matrix6d> motionCovariances(const std::vector<PairEquations>& pairs,
-                                                  const std::vector<int>& members, std::size_t keyframe_count,
+                                                  const std::vector<int>& members, const std::vector<int>& bodies,
                                                   const geometry::Matrix6d& prior)
 {
-  std::vector<geometry::Matrix6d> covariances(keyframe_count, geometry::Matrix6d::Zero());
-  const std::vector<int> rows = rowsOf(members, keyframe_count);
-  const int unknowns = 6 * (static_cast<int>(members.size()) - 1);
+  std::vector<geometry::Matrix6d> covariances(bodies.size(), geometry::Matrix6d::Zero());
+  const auto [rows, unknowns] = Rows(members, bodies);
   const Eigen::SimplicialLDLT<SparseMatrix> factors(matrixOf(pairs, rows, unknowns, prior));
   if (unknowns == 0 || factors.info() != Eigen::Success)
     return covariances;
-  for (std::size_t k = 0; k < keyframe_count; ++k)
+  for (std::size_t k = 0; k < bodies.size(); ++k)
   {
     if (rows[k] < 0)
       continue;

@@ -18,16 +18,17 @@ struct PairEquations
   geometry::Vector6d g = geometry::Vector6d::Zero();
 };
 
-/// Least motions of all keyframes, with Levenberg and Marquardt's damping; the first of `members` stays where it is, as
-/// do keyframes that are not members. Nothing if the equations have no solution.
+/// Least motions of all keyframes, with Levenberg and Marquardt's damping; those of one body move alike. The body of
+/// the first of `members` stays where it is, as do keyframes that are not members. Nothing if the equations have no
+/// solution.
 std::optional<std::vector<geometry::Vector6d>> solveMotions(const std::vector<PairEquations>& pairs,
-                                                            const std::vector<int>& members, std::size_t keyframe_count,
-                                                            double damping);
+                                                            const std::vector<int>& members,
+                                                            const std::vector<int>& bodies, double damping);
 
-/// Covariance of those motions: blocks of the inverse, for members but the first; zero for the others, and for all if
-/// the equations are singular. `prior`: information of each motion besides the pairs'.
+/// Covariance of those motions: blocks of the inverse, for members of bodies but the first's; zero for the others, and
+/// for all if the equations are singular. `prior`: information of each motion besides the pairs'.
 std::vector<geometry::Matrix6d> motionCovariances(const std::vector<PairEquations>& pairs,
-                                                  const std::vector<int>& members, std::size_t keyframe_count,
+                                                  const std::vector<int>& members, const std::vector<int>& bodies,
                                                   const geometry::Matrix6d& prior);
 
 }  // namespace object_modelling::refinement

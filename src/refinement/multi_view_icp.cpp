@@ -27,6 +27,10 @@ MultiViewIcpResult refineByMultiViewIcp(const std::vector<rgbd::Keyframe>& keyfr
                                         const MultiViewIcpOptions& options, base::JobControl& control)
 {
   base::checked(options);
+  if (!options.bodies.empty() && options.bodies.size() != keyframes.size())
+    throw base::Error(base::StatusCode::INVALID_ARGUMENT, "multi_view_icp: " + std::to_string(options.bodies.size()) +
+                                                              " bodies of " + std::to_string(keyframes.size()) +
+                                                              " keyframes; give one for each, or none");
   control.report("overlap", 0, keyframes.size());
   IcpProblem problem(keyframes, options, overlapGraph(keyframes, options), &control);
   const IcpOutcome outcome = runIcp(keyframes, options, &problem, &control);

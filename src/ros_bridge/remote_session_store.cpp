@@ -8,10 +8,12 @@
 #include <object_modelling/CreateSession.h>
 #include <object_modelling/DeleteSession.h>
 #include <object_modelling/ExportSession.h>
+#include <object_modelling/GetAlignments.h>
 #include <object_modelling/GetKeyframe.h>
 #include <object_modelling/GetSession.h>
 #include <object_modelling/ImportSession.h>
 #include <object_modelling/ListSessions.h>
+#include <object_modelling/UpdateAlignments.h>
 #include <object_modelling/UpdateMasks.h>
 #include <object_modelling/UpdatePoses.h>
 #include <object_modelling/UpdateSession.h>
@@ -156,6 +158,24 @@ void RemoteSessionStore::updateMasks(const std::string& session_id, const std::v
   for (const keyframes::MaskUpdate& update : updates)
     service.request.updates.push_back(toMessage(update, session_id));
   call(names::UPDATE_MASKS, service);
+}
+
+std::vector<keyframes::AlignmentRecord> RemoteSessionStore::alignments()
+{
+  object_modelling::GetAlignments service;
+  call(names::GET_ALIGNMENTS, service);
+  std::vector<keyframes::AlignmentRecord> records;
+  for (const object_modelling::AlignmentRecord& record : service.response.alignments)
+    records.push_back(fromMessage(record));
+  return records;
+}
+
+void RemoteSessionStore::updateAlignments(const std::vector<keyframes::AlignmentRecord>& records)
+{
+  object_modelling::UpdateAlignments service;
+  for (const keyframes::AlignmentRecord& record : records)
+    service.request.alignments.push_back(toMessage(record));
+  call(names::UPDATE_ALIGNMENTS, service);
 }
 
 void RemoteSessionStore::exportSession(const std::string& session_id, const std::string& path)

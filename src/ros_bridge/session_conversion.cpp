@@ -46,4 +46,18 @@ keyframes::Session fromMessage(const object_modelling::Session& message)
   return session;
 }
 
+object_modelling::AlignmentRecord toMessage(const keyframes::AlignmentRecord& record)
+{
+  object_modelling::AlignmentRecord message;
+  message.session_a = record.session_a;
+  message.session_b = record.session_b;
+  message.findings = record.findings;
+  return message;
+}
+
+keyframes::AlignmentRecord fromMessage(const object_modelling::AlignmentRecord& message)
+{
+  return { message.session_a, message.session_b, message.findings };
+}
+
 }  // namespace object_modelling::ros_bridge

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "object_modelling/alignment/alignment_by_points.h"
+#include "object_modelling/alignment/session_alignment.h"
+
 #include "object_modelling/geometry/transform.h"
 #include "support/handheld_trajectory.h"
 #include "support/synthetic_scene.h"
@@ -146,6 +149,100 @@ TEST_F(PairAlignmentOfABox, GivesTheSameBitsWithAnyNumberOfThreads)
   ASSERT_EQ(first.candidates.size(), second.candidates.size());
   for (std::size_t i = 0; i < first.candidates.size(); ++i)
     EXPECT_EQ(first.candidates[i].T_a_b.matrix(), second.candidates[i].T_a_b.matrix()) << i;
+}
+
+TEST_F(PairAlignmentOfABox, TakesAKnownPoseOverWhereThePartsBearItOut)
+{
+  std::vector<PartialModel> parts = { scanned("up", box_, upright_, SIZE_M.z()),
+                                      scanned("side", box_, lying_, SIZE_M.y()) };
+  PairAlignmentOptions hardly;  // one proposal that is not the pose, so that only what is known can be found
+  hardly.rotations = 0;
+  hardly.refined_candidates = 1;
+  for (PartialModel& part : parts)
+  {
+    part.features.clear();
+    part.support_plane.reset();
+  }
+  base::JobControl control;
+  ASSERT_FALSE(alignSessions(parts, {}, hardly, control).status.ok());
+
+  const Eigen::Isometry3d T_a_b = truth(upright_, SIZE_M.z(), lying_, SIZE_M.y());
+  AlignmentEdge known;
+  known.session_a = "side";
+  known.session_b = "up";
+  known.accepted = true;
+  known.candidates.resize(1);
+  known.candidates[0].T_a_b = Eigen::Translation3d(0.001, 0, -0.001) * T_a_b.inverse();
+  const AlignmentResult found = alignSessions(parts, { known }, hardly, control);
+  ASSERT_TRUE(found.status.ok()) << found.status.message;
+  EXPECT_EQ(found.edges[0].session_a, "side");
+  EXPECT_TRUE(found.placements[1].T_reference_session.isApprox(T_a_b, 0.01)) << "moved into place";
+  EXPECT_GT(found.edges[0].candidates[0].quality.overlap_ratio, 0.3) << "measured again";
+
+  known.candidates[0].T_a_b.translation().x() += 0.05;
+  EXPECT_FALSE(alignSessions(parts, { known }, hardly, control).status.ok()) << "the parts do not bear it out";
+  known.decision = Decision::ACCEPTED;
+  EXPECT_TRUE(alignSessions(parts, { known }, hardly, control).status.ok()) << "a person's word stands";
+}
+
+class PointsOfABox : public PairAlignmentOfABox
+{
+protected:
+  /// As a person clicks: corners of the box, each some millimetres off.
+  std::vector<PointPair> clicked(int count) const
+  {
+    const Eigen::Vector3d half = SIZE_M / 2, up(0, 0, SIZE_M.z() / 2), side(0, 0, SIZE_M.y() / 2);
+    const std::vector<Eigen::Vector3d> corners = { { 1, 1, 1 }, { -1, 1, 1 }, { 1, 1, -1 }, { -1, 1, -1 } };
+    std::vector<PointPair> pairs;
+    for (int i = 0; i < count; ++i)
+    {
+      const Eigen::Vector3d p = corners[i].cwiseProduct(half);
+      pairs.push_back({ up + p + Eigen::Vector3d(0.003, -0.002 * i, 0.001), side + lying_ * p });
+    }
+    return pairs;
+  }
+  std::string refusal(const std::vector<PointPair>& pairs)
+  {
+    try
+    {
+      base::JobControl control;
+      alignByPoints(a_, b_, pairs, {}, control);
+    }
+    catch (const base::Error& error)
+    {
+      EXPECT_EQ(error.code(), base::StatusCode::INVALID_ARGUMENT);
+      return error.what();
+    }
+    return "accepted";
+  }
+  PartialModel a_ = scanned("up", box_, upright_, SIZE_M.z()), b_ = scanned("side", box_, lying_, SIZE_M.y());
+};
+
+TEST_F(PointsOfABox, TellThePose)
+{
+  for (const int count : { 3, 4 })
+  {
+    base::JobControl control;
+    const PairCandidate found = alignByPoints(a_, b_, clicked(count), {}, control);
+    EXPECT_EQ(found.kind, ProposalKind::BY_HAND);
+    expectNear({ true, "", { found } }, truth(upright_, SIZE_M.z(), lying_, SIZE_M.y()), SIZE_M.y());
+    EXPECT_GT(found.quality.overlap_ratio, 0.3);
+  }
+}
+
+TEST_F(PointsOfABox, AreRefusedWhereTheyTellNone)
+{
+  EXPECT_NE(refusal(clicked(2)).find("2 pairs"), std::string::npos);
+  std::vector<PointPair> swapped = clicked(3);
+  std::swap(swapped[0].a, swapped[1].a);
+  std::swap(swapped[0].b, swapped[2].b);
+  EXPECT_NE(refusal(swapped).find("do not fit each other"), std::string::npos) << refusal(swapped);
+  std::vector<PointPair> line = clicked(3);
+  line[2] = { (line[0].a + line[1].a) / 2, (line[0].b + line[1].b) / 2 };
+  EXPECT_NE(refusal(line).find("one line"), std::string::npos) << refusal(line);
+  std::vector<PointPair> nan = clicked(3);
+  nan[1].b.x() = std::nan("");
+  EXPECT_NE(refusal(nan).find("not finite"), std::string::npos) << refusal(nan);
 }
 
 TEST_F(PairAlignmentOfABox, StopsWhenCancelled)

@@ -19,18 +19,18 @@ AlignmentEdge edge(const std::string& a, const std::string& b, const Eigen::Vect
   PairCandidate candidate;
   candidate.T_a_b.translation() = t;
   candidate.quality.probability = probability;
-  return { a, b, accepted, false, accepted ? "" : "overlap 3 % below 12 %", { candidate } };
+  return { a, b, Decision::AUTOMATIC, accepted, false, accepted ? "" : "overlap 3 % below 12 %", { candidate } };
 }
 
-AlignmentResult align(const std::vector<PartialModel>& parts, const std::vector<AlignmentEdge>& edges)
+AlignmentResult align(const std::vector<PartialModel>& parts)
 {
   base::JobControl control;
-  return alignSessions(parts, edges, {}, control);
+  return alignSessions(parts, {}, {}, control);
 }
 
 TEST(SessionAlignment, PlacesOneSessionAtIdentity)
 {
-  const AlignmentResult result = align({ part("mug_1") }, {});
+  const AlignmentResult result = align({ part("mug_1") });
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   ASSERT_EQ(result.placements.size(), 1u);
   EXPECT_EQ(result.placements[0].session_id, "mug_1");
@@ -41,7 +41,7 @@ TEST(SessionAlignment, PlacesOneSessionAtIdentity)
 TEST(SessionAlignment, PlacesByTheMostProbableEdges)
 {
   // The direct edge from a to c is off by 4 mm, which the cycle allows, and is the least probable.
-  const AlignmentResult result = align(
+  const AlignmentResult result = placeSessions(
       { part("a"), part("b"), part("c") },
       { edge("a", "b", { 1, 0, 0 }, 0.9), edge("a", "c", { 1.004, 2, 0 }, 0.6), edge("b", "c", { 0, 2, 0 }, 0.8) });
   ASSERT_TRUE(result.status.ok()) << result.status.message;
@@ -55,9 +55,9 @@ TEST(SessionAlignment, PlacesByTheMostProbableEdges)
 
 TEST(SessionAlignment, LeavesOutWhatConnectsToNothingAndSaysWhy)
 {
-  const AlignmentResult result = align({ part("a"), part("b"), part("c") },
-                                       { edge("a", "b", { 1, 0, 0 }, 0.9), edge("a", "c", { 1, 0, 0 }, 0.1, false),
-                                         edge("b", "c", { 1, 0, 0 }, 0.1, false) });
+  const AlignmentResult result = placeSessions(
+      { part("a"), part("b"), part("c") }, { edge("a", "b", { 1, 0, 0 }, 0.9), edge("a", "c", { 1, 0, 0 }, 0.1, false),
+                                             edge("b", "c", { 1, 0, 0 }, 0.1, false) });
   EXPECT_TRUE(result.status.ok());
   EXPECT_EQ(result.placements.size(), 2u);
   EXPECT_EQ(result.left_out, std::vector<std::string>{ "c" });
@@ -67,9 +67,10 @@ TEST(SessionAlignment, LeavesOutWhatConnectsToNothingAndSaysWhy)
 
 TEST(SessionAlignment, TakesTheLargestConnectedPart)
 {
-  const AlignmentResult result = align({ part("a"), part("b"), part("c") },
-                                       { edge("a", "b", { 1, 0, 0 }, 0.1, false),
-                                         edge("a", "c", { 1, 0, 0 }, 0.1, false), edge("b", "c", { 3, 0, 0 }, 0.9) });
+  const AlignmentResult result =
+      placeSessions({ part("a"), part("b"), part("c") },
+                    { edge("a", "b", { 1, 0, 0 }, 0.1, false), edge("a", "c", { 1, 0, 0 }, 0.1, false),
+                      edge("b", "c", { 3, 0, 0 }, 0.9) });
   ASSERT_EQ(result.placements.size(), 2u);
   EXPECT_EQ(result.placements[0].session_id, "b");
   EXPECT_TRUE(result.placements[0].T_reference_session.isApprox(Eigen::Isometry3d::Identity()));
@@ -78,7 +79,7 @@ TEST(SessionAlignment, TakesTheLargestConnectedPart)
 
 TEST(SessionAlignment, RefusesWhereNoTwoConnect)
 {
-  const AlignmentResult result = align({ part("a"), part("b") }, { edge("a", "b", { 1, 0, 0 }, 0.1, false) });
+  const AlignmentResult result = placeSessions({ part("a"), part("b") }, { edge("a", "b", { 1, 0, 0 }, 0.1, false) });
   EXPECT_EQ(result.status.code, base::StatusCode::NO_RESULT);
   EXPECT_NE(result.status.message.find("overlap 3 % below 12 %"), std::string::npos) << result.status.message;
   EXPECT_TRUE(result.placements.empty()) << "unaligned sessions must not be placed";
@@ -86,18 +87,18 @@ TEST(SessionAlignment, RefusesWhereNoTwoConnect)
 
 TEST(SessionAlignment, LeavesOutTheEdgeThatContradictsCertainOnes)
 {
-  const AlignmentResult result =
-      align({ part("a"), part("b"), part("c") },
-            { edge("a", "b", { 1, 0, 0 }, 0.99), edge("a", "c", { 5, 0, 0 }, 0.6), edge("b", "c", { 0, 2, 0 }, 0.98) });
+  const AlignmentResult result = placeSessions(
+      { part("a"), part("b"), part("c") },
+      { edge("a", "b", { 1, 0, 0 }, 0.99), edge("a", "c", { 5, 0, 0 }, 0.6), edge("b", "c", { 0, 2, 0 }, 0.98) });
   EXPECT_EQ(result.placements.size(), 3u);
   EXPECT_NE(result.edges[1].reason.find("contradicts"), std::string::npos) << result.edges[1].reason;
 }
 
 TEST(SessionAlignment, DoesNotTrustAWeakEdgeThatAnotherContradicts)
 {
-  const AlignmentResult result =
-      align({ part("a"), part("b"), part("c") },
-            { edge("a", "b", { 1, 0, 0 }, 0.99), edge("a", "c", { 5, 0, 0 }, 0.6), edge("b", "c", { 0, 2, 0 }, 0.7) });
+  const AlignmentResult result = placeSessions(
+      { part("a"), part("b"), part("c") },
+      { edge("a", "b", { 1, 0, 0 }, 0.99), edge("a", "c", { 5, 0, 0 }, 0.6), edge("b", "c", { 0, 2, 0 }, 0.7) });
   EXPECT_EQ(result.placements.size(), 2u) << "one of the two edges to c is wrong, and neither is certain";
   EXPECT_EQ(result.left_out, std::vector<std::string>{ "c" });
 }
@@ -111,7 +112,7 @@ TEST(SessionAlignment, MeasuresCyclesWhereTheObjectIs)
   turned.candidates[0].T_a_b = Eigen::Translation3d(0, 0, 1) * Eigen::AngleAxisd(0.0175, Eigen::Vector3d::UnitX()) *
                                Eigen::Translation3d(0, 0, -1);
   const AlignmentResult result =
-      align(parts, { edge("a", "b", { 0, 0, 0 }, 0.8), turned, edge("b", "c", { 0, 0, 0 }, 0.7) });
+      placeSessions(parts, { edge("a", "b", { 0, 0, 0 }, 0.8), turned, edge("b", "c", { 0, 0, 0 }, 0.7) });
   EXPECT_EQ(result.placements.size(), 3u) << result.status.message;
 }
 
@@ -123,17 +124,30 @@ TEST(SessionAlignment, LetsACycleCloseByAnEquivalentPose)
   ambiguous.candidates[0].T_a_b.linear() = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   const std::vector<AlignmentEdge> edges = { edge("a", "b", { 0, 0, 0 }, 0.8), ambiguous,
                                              edge("b", "c", { 0, 0, 0 }, 0.7) };
-  EXPECT_EQ(align({ part("a"), part("b"), part("c") }, edges).placements.size(), 3u);
+  EXPECT_EQ(placeSessions({ part("a"), part("b"), part("c") }, edges).placements.size(), 3u);
   std::vector<AlignmentEdge> decided = edges;
   decided[1].candidates[1].quality.fsv_ratio = 0.1;
-  EXPECT_EQ(align({ part("a"), part("b"), part("c") }, decided).placements.size(), 2u);
+  EXPECT_EQ(placeSessions({ part("a"), part("b"), part("c") }, decided).placements.size(), 2u);
+}
+
+TEST(SessionAlignment, LetsAPersonDecide)
+{
+  // Against a certain edge, and with figures that speak against it.
+  AlignmentEdge accepted = edge("a", "c", { 5, 0, 0 }, 0.01);
+  accepted.decision = Decision::ACCEPTED;
+  const AlignmentResult result =
+      placeSessions({ part("a"), part("b"), part("c") },
+                    { edge("a", "b", { 1, 0, 0 }, 0.99), accepted, edge("b", "c", { 0, 2, 0 }, 0.98) });
+  ASSERT_EQ(result.placements.size(), 3u);
+  EXPECT_EQ(result.placements[2].T_reference_session.translation(), Eigen::Vector3d(5, 0, 0));
+  EXPECT_NE(result.edges[2].reason.find("contradicts"), std::string::npos) << result.edges[2].reason;
 }
 
 TEST(SessionAlignment, TakesKnownEdgesInEitherOrderAndForgetsTheirOldReasons)
 {
   AlignmentEdge known = edge("b", "a", { -1, 0, 0 }, 0.9);
   known.reason = "left out: contradicts something";
-  const AlignmentResult result = align({ part("a"), part("b") }, { known });
+  const AlignmentResult result = placeSessions({ part("a"), part("b") }, { known });
   ASSERT_EQ(result.placements.size(), 2u);
   EXPECT_TRUE(result.placements[1].T_reference_session.translation().isApprox(Eigen::Vector3d(1, 0, 0)));
   EXPECT_TRUE(result.edges[0].reason.empty()) << result.edges[0].reason;
@@ -141,8 +155,8 @@ TEST(SessionAlignment, TakesKnownEdgesInEitherOrderAndForgetsTheirOldReasons)
 
 TEST(SessionAlignment, RefusesNoSessionAndOneTwice)
 {
-  EXPECT_EQ(align({}, {}).status.code, base::StatusCode::INVALID_ARGUMENT);
-  EXPECT_EQ(align({ part("a"), part("a") }, {}).status.code, base::StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(align({}).status.code, base::StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(align({ part("a"), part("a") }).status.code, base::StatusCode::INVALID_ARGUMENT);
 }
 
 TEST(SessionAlignment, StopsWhenCancelled)

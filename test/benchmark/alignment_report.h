@@ -13,6 +13,7 @@ namespace object_modelling::benchmark_alignment
 struct SessionRow
 {
   std::string id;
+  std::string session;  ///< that it is a part of
   std::string problem;  ///< why it was left out; empty if it was not
   std::size_t keyframes = 0;
   double made_s = 0;  ///< 0: it was in the cache

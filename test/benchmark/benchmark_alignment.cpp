@@ -1,14 +1,18 @@
 // Aligns the sessions of simulated sequences pair by pair, and prints what was found against the truth.
 // benchmark_alignment --help; docs/alignment.md.
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <map>
 #include <memory>
+#include <random>
 #include <set>
 
 #include <CLI/CLI.hpp>
 
+#include "alignment_growth.h"
 #include "alignment_report.h"
 #include "alignment_sessions.h"
 #include "benchmark_program.h"
@@ -23,7 +27,10 @@ struct Arguments
 {
   std::vector<std::string> folders;
   std::string cache, json;
-  bool grey = false, cross = false;
+  bool grey = false, cross = false, growth = false;
+  int arcs = 0;  ///< parts of each session, of a run of its keyframes each; 0: one of all
+  std::uint64_t seed = 1;
+  std::size_t max_cross = 0;  ///< 0: all
   alignment::PartialModelOptions part;
   alignment::PairAlignmentOptions pair;
 };
@@ -49,17 +56,38 @@ private:
   std::map<std::string, std::unique_ptr<evaluation::ReferenceSurface>> surfaces_;
 };
 
+/// Leaves a run of a third of the keyframes to all of them, as if the walk round the object had been shorter.
+void keepArc(std::uint64_t seed, const std::string& id, std::vector<rgbd::Keyframe>* keyframes)
+{
+  std::seed_seq seeds(id.begin(), id.end());
+  std::vector<std::uint32_t> from_id(1);
+  seeds.generate(from_id.begin(), from_id.end());
+  std::mt19937_64 random(seed + from_id[0]);
+  const auto all = static_cast<double>(keyframes->size());
+  const double length = all * std::uniform_real_distribution<>(1.0 / 3, 1)(random);
+  const double begin = std::uniform_real_distribution<>(0, all - length)(random);
+  std::vector<rgbd::Keyframe> kept(keyframes->begin() + std::lround(begin),
+                                   keyframes->begin() + std::lround(begin + length));
+  keyframes->swap(kept);
+}
+
 /// One that fails is left out and tells why, so that hours of work on the others are not lost.
-SessionRow prepareSession(const std::string& folder, const Arguments& arguments, Surfaces* surfaces)
+SessionRow prepareSession(const std::string& folder, int arc, const Arguments& arguments, Surfaces* surfaces)
 {
   SessionRow row;
   row.id = sessionIdOf(folder);
+  row.session = row.id;
+  if (arguments.arcs > 0)
+    row.id += "/" + std::to_string(arc);
   try
   {
-    const StoredSession stored = storedSession(folder, arguments.cache);
-    row.keyframes = stored.keyframes.size();
+    StoredSession stored = storedSession(folder, arguments.cache);
     row.made_s = stored.made_s;
     row.truth = sessionTruth(folder, objectFolderOf(folder), stored.keyframes);
+    if (arguments.arcs > 0)
+      keepArc(arguments.seed, row.id, &stored.keyframes);
+    row.keyframes = stored.keyframes.size();
+    stored.session.id = row.id;
     base::JobControl control;
     const auto start = std::chrono::steady_clock::now();
     row.part = alignment::makePartialModel(stored.session, stored.keyframes, arguments.part, control);
@@ -105,15 +133,21 @@ PairRow alignSessions(const SessionRow& a, const SessionRow& b, const Arguments&
   return row;
 }
 
-/// First those of the same object, then, if asked for, the others.
-std::vector<std::pair<std::size_t, std::size_t>> pairsOf(const std::vector<SessionRow>& sessions, bool cross)
+/// First those of the same object, then, if asked for, the others. Parts of one session are no pair.
+std::vector<std::pair<std::size_t, std::size_t>> pairsOf(const std::vector<SessionRow>& sessions,
+                                                         const Arguments& arguments)
 {
   std::vector<std::pair<std::size_t, std::size_t>> pairs, others;
   for (std::size_t i = 0; i < sessions.size(); ++i)
     for (std::size_t k = i + 1; k < sessions.size(); ++k)
-      if (sessions[i].problem.empty() && sessions[k].problem.empty())
+      if (sessions[i].problem.empty() && sessions[k].problem.empty() && sessions[i].session != sessions[k].session)
         (sessions[i].truth.object == sessions[k].truth.object ? pairs : others).emplace_back(i, k);
-  if (cross)
+  std::mt19937_64 random(arguments.seed);
+  if (arguments.max_cross > 0)
+    std::shuffle(others.begin(), others.end(), random);
+  if (arguments.max_cross > 0 && others.size() > arguments.max_cross)
+    others.resize(arguments.max_cross);
+  if (arguments.cross)
     pairs.insert(pairs.end(), others.begin(), others.end());
   return pairs;
 }
@@ -128,20 +162,33 @@ void run(const Arguments& arguments)
   Surfaces surfaces;
   std::vector<SessionRow> sessions;
   for (const std::string& folder : arguments.folders)
-    sessions.push_back(prepareSession(folder, arguments, &surfaces));
-  std::cout << sessionTable(sessions) << "\n" << pairTableHeader() << std::flush;
+    for (int arc = 0; arc < std::max(1, arguments.arcs); ++arc)
+      sessions.push_back(prepareSession(folder, arc, arguments, &surfaces));
+  std::cout << sessionTable(sessions) << "\n" << std::flush;
+  if (arguments.growth)
+  {
+    std::vector<alignment::PartialModel> parts;
+    for (const SessionRow& session : sessions)
+      if (session.problem.empty())
+        parts.push_back(session.part);
+    const std::vector<GrowthRow> rows = measureGrowth(parts, arguments.pair);
+    std::cout << toTable(rows) << std::flush;
+    benchmark_program::writeJson(arguments.json, toJson(rows));
+    return;
+  }
+  std::cout << pairTableHeader() << std::flush;
   std::vector<PairRow> pairs;
-  for (const auto& [i, k] : pairsOf(sessions, arguments.cross))
+  for (const auto& [i, k] : pairsOf(sessions, arguments))
   {
     pairs.push_back(alignSessions(sessions[i], sessions[k], arguments, &surfaces));
     std::cout << toTableRow(pairs.back()) << std::flush;
   }
   std::cout << "\n" << summaryText(sessions, pairs) << std::flush;
   nlohmann::json json = toJson(sessions, pairs);
-  json["options"] = { { "grey", arguments.grey },
-                      { "cross", arguments.cross },
-                      { "threads", arguments.pair.threads },
-                      { "spacing_m", arguments.part.spacing_m } };
+  json["options"] = {
+    { "grey", arguments.grey }, { "cross", arguments.cross },          { "arcs", arguments.arcs },
+    { "seed", arguments.seed }, { "threads", arguments.pair.threads }, { "spacing_m", arguments.part.spacing_m }
+  };
   benchmark_program::writeJson(arguments.json, json);
 }
 }  // namespace
@@ -162,6 +209,12 @@ int main(int argc, char** argv)
       ->required();
   app.add_flag("--grey", arguments.grey, "Without colour and features, by shape alone");
   app.add_flag("--cross", arguments.cross, "Also pairs of different objects, which should be refused");
+  app.add_option("--arcs", arguments.arcs,
+                 "So many parts of each session, each of a random run of its keyframes: many pairs of few recordings")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--max-cross", arguments.max_cross, "So many pairs of different objects, chosen at random; 0: all");
+  app.add_option("--seed", arguments.seed, "Of --arcs and --max-cross")->capture_default_str();
+  app.add_flag("--growth", arguments.growth, "Instead: time by the number of sessions, which are of one object");
   app.add_option("--json", arguments.json, "Also write all figures, of all candidates, to this file");
   app.add_option("--threads", arguments.pair.threads)->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--spacing-mm", spacing_mm, "Of the points of a part")

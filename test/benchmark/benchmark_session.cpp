@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark_program.h"
+#include "object_modelling/pipeline/align_sessions.h"
 #include "object_modelling/pipeline/build_object.h"
 #include "object_modelling/pipeline/session_jobs.h"
 #include "object_modelling/pipeline/session_refinement.h"

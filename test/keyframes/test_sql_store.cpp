@@ -74,6 +74,52 @@ TEST_P(SqlStore, KeepsSessions)
   EXPECT_FALSE(sessions[1].support_plane_session || sessions[1].T_model_session || sessions[1].reference_is_object);
 }
 
+TEST_P(SqlStore, KeepsOneAlignmentForAPairInEitherOrder)
+{
+  for (const char* id : { "a", "b", "c" })
+    store_->createSession(makeSession(id));
+  EXPECT_TRUE(store_->alignments().empty());
+  store_->updateAlignments({ { "b", "c", "first: 'x'\n" }, { "a", "b", "\xc3\xa4 %" } });
+  reopen();
+  std::vector<AlignmentRecord> records = store_->alignments();
+  ASSERT_EQ(records.size(), 2u);
+  EXPECT_EQ(records[0].session_a + records[0].session_b + records[0].findings, "ab\xc3\xa4 %");
+  EXPECT_EQ(records[1].findings, "first: 'x'\n");
+
+  store_->updateAlignments({ { "c", "b", "second" } });
+  records = store_->alignments();
+  ASSERT_EQ(records.size(), 2u) << "the other order is the same pair";
+  EXPECT_EQ(records[1].session_a + records[1].findings, "csecond");
+
+  store_->updateAlignments({ { "b", "c", "" } });
+  EXPECT_EQ(store_->alignments().size(), 1u) << "forgotten";
+  store_->deleteSession("b");
+  EXPECT_TRUE(store_->alignments().empty()) << "goes with its session";
+}
+
+TEST_P(SqlStore, TakesAllAlignmentsOrNone)
+{
+  store_->createSession(makeSession("a"));
+  store_->createSession(makeSession("b"));
+  EXPECT_EQ(codeOf(
+                [&] {
+                  store_->updateAlignments({ { "a", "b", "x" }, { "a", "missing", "y" } });
+                }),
+            StatusCode::NOT_FOUND);
+  EXPECT_TRUE(store_->alignments().empty());
+  EXPECT_EQ(codeOf([&] { store_->updateAlignments({ { "a", "a", "x" } }); }), StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(codeOf(
+                [&] {
+                  store_->updateAlignments({ { "a", "b'; DROP TABLE sessions", "x" } });
+                }),
+            StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(codeOf(
+                [&] {
+                  store_->updateAlignments({ { "a", "b", std::string("x\0y", 3) } });
+                }),
+            StatusCode::INVALID_ARGUMENT);
+}
+
 TEST_P(SqlStore, UpdatesSessions)
 {
   store_->createSession(makeSession("a"));

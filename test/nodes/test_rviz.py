@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""rviz with our config, on a virtual screen: loads, subscribes to what the nodes publish, draws it. Its screenshot,
-rviz.png, is in the folder of the test's logs."""
+"""rviz with our configs, on a virtual screen: loads, subscribes to what the nodes publish, draws it. Its screenshots
+are in the folder of the test's logs."""
 import os
 import re
 import subprocess
@@ -17,19 +17,19 @@ from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 import numpy
 
-CONFIG = os.path.join(rospkg.RosPack().get_path("object_modelling"), "rviz", "object_modelling.rviz")
+CONFIGS = os.path.join(rospkg.RosPack().get_path("object_modelling"), "rviz")
 HEADER = Header(frame_id="session")
 
 
-def cloud(x_m):
+def cloud(x_m, z_m=0.8, header=HEADER):
     """A red square of 0.2 m."""
     points = numpy.zeros((10000, 4), numpy.float32)
     points[:, 0] = x_m + numpy.tile(numpy.linspace(-0.1, 0.1, 100), 100)
     points[:, 1] = numpy.repeat(numpy.linspace(-0.1, 0.1, 100), 100)
-    points[:, 2] = 0.8
+    points[:, 2] = z_m
     points[:, 3].view(numpy.uint32)[:] = 0xFF0000
     fields = [PointField(name, 4 * index, PointField.FLOAT32, 1) for index, name in enumerate(("x", "y", "z", "rgb"))]
-    return PointCloud2(header=HEADER, height=1, width=len(points), fields=fields, point_step=16, data=points.tobytes(),
+    return PointCloud2(header=header, height=1, width=len(points), fields=fields, point_step=16, data=points.tobytes(),
                        row_step=16 * len(points), is_dense=True)
 
 
@@ -51,6 +51,21 @@ def publish_everything():
     messages = {"camera_tracker/debug_image": image, "keyframe_store/cloud": cloud(0), "keyframe_store/path": path,
                 "keyframe_store/frusta": MarkerArray([green]), "segmenter/hypotheses_markers": MarkerArray([green]),
                 "segmenter/hypotheses_cloud": cloud(0.3), "model_builder/model_mesh": blue}
+    return publish(messages)
+
+
+def publish_a_pair():
+    """As session_aligner does, in a frame that tf knows nothing of."""
+    header = Header(frame_id="alignment")
+    square = cloud(0, 0, header)
+    label = Marker(header=header, type=Marker.TEXT_VIEW_FACING, text="0: features", color=ColorRGBA(0.2, 1, 0.3, 1))
+    label.pose.position.z = 0.15
+    label.pose.orientation.w = 1
+    label.scale.z = 0.08
+    return publish({"session_aligner/parts": square, "session_aligner/labels": MarkerArray([label])})
+
+
+def publish(messages):
     publishers = {}
     for topic, message in messages.items():
         publishers[topic] = rospy.Publisher(topic, type(message), queue_size=1, latch=True)
@@ -64,9 +79,14 @@ class RvizTest(unittest.TestCase):
         transform = TransformStamped(header=Header(frame_id="camera"), child_frame_id="session")
         transform.transform.rotation.w = 1
         broadcaster.sendTransform(transform)
-        publishers = publish_everything()
-        rviz = subprocess.Popen(["rviz", "-d", CONFIG, "__name:=rviz"], stdout=subprocess.PIPE,
-                                stderr=subprocess.STDOUT, universal_newlines=True)
+        self.check("object_modelling", publish_everything(), {"red", "blue", "green", "image"})
+
+    def test_a_pair_to_decide_on_is_drawn(self):
+        self.check("alignment", publish_a_pair(), {"red", "green"})
+
+    def check(self, config, publishers, wanted):
+        rviz = subprocess.Popen(["rviz", "-d", os.path.join(CONFIGS, config + ".rviz"), "__name:=rviz_" + config],
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
         try:
             end = time.monotonic() + 60
             while time.monotonic() < end and not all(p.get_num_connections() for p in publishers.values()):
@@ -75,20 +95,20 @@ class RvizTest(unittest.TestCase):
             self.assertEqual([t for t, p in publishers.items() if not p.get_num_connections()], [],
                              "topics that rviz does not listen to")
             colors = {}
-            while time.monotonic() < end and not {"red", "blue", "green", "image"} <= set(colors):
+            while time.monotonic() < end and not wanted <= set(colors):
                 time.sleep(1)
-                colors = self.look()
-            self.assertLessEqual({"red", "blue", "green", "image"}, set(colors), "colours on the screen")
+                colors = self.look(config + ".png")
+            self.assertLessEqual(wanted, set(colors), "colours on the screen")
         finally:
             rviz.terminate()
             log = rviz.communicate(timeout=20)[0]
         self.assertNotRegex(log, re.compile("could not be loaded|failed to load|PluginlibFactory", re.IGNORECASE))
 
     @staticmethod
-    def look():
+    def look(picture):
         """Which of the colours that were published are on the screen."""
-        subprocess.run(["import", "-window", "root", "rviz.png"], check=True, timeout=20)
-        raw = subprocess.run(["convert", "rviz.png", "-depth", "8", "rgb:-"], check=True, timeout=20,
+        subprocess.run(["import", "-window", "root", picture], check=True, timeout=20)
+        raw = subprocess.run(["convert", picture, "-depth", "8", "rgb:-"], check=True, timeout=20,
                              stdout=subprocess.PIPE).stdout
         pixels = numpy.frombuffer(raw, numpy.uint8).reshape(-1, 3).astype(int)
         r, g, b = pixels.T

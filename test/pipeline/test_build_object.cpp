@@ -3,6 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "build_fixture.h"
+#include "object_modelling/pipeline/align_sessions.h"
 #include "object_modelling/pipeline/record_session.h"
 #include "object_modelling/pipeline/session_jobs.h"
 #include "support/transform_matchers.h"

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "object_modelling/pipeline/align_sessions.h"
 #include "object_modelling/pipeline/record_session.h"
 #include "object_modelling/pipeline/session_jobs.h"
 #include "object_modelling/pipeline/session_refinement.h"
@@ -164,7 +165,7 @@ TEST_F(SessionJobs, AlignPlacesOneWithoutLookingAtIt)
   EXPECT_EQ(alignSessions(*store_, {}, {}, control_).status.code, StatusCode::INVALID_ARGUMENT);
 }
 
-TEST_F(SessionJobs, AlignPlacesSessionsOfTheSameObjectAndWritesNothing)
+TEST_F(SessionJobs, AlignPlacesSessionsOfTheSameObjectAndKeepsWhatItFound)
 {
   // Both stand in the same world, which is their session frame.
   storeRenderedSession(*store_, "one", 12);
@@ -177,7 +178,39 @@ TEST_F(SessionJobs, AlignPlacesSessionsOfTheSameObjectAndWritesNothing)
       << two.placements[1].T_reference_session.matrix();
   ASSERT_EQ(two.edges.size(), 1u);
   EXPECT_TRUE(two.edges[0].accepted);
-  EXPECT_EQ(fingerprint(*store_, "one") + fingerprint(*store_, "two"), before);
+  EXPECT_EQ(fingerprint(*store_, "one") + fingerprint(*store_, "two"), before) << "the sessions stay as they are";
+
+  const alignment::AlignmentEdge known = knownAlignment(*store_, "two", "one");
+  EXPECT_TRUE(known.accepted);
+  EXPECT_EQ(known.best()->T_a_b.matrix(), two.edges[0].best()->T_a_b.matrix());
+  store_->updateAlignments({ { "one", "two", "no: yaml: [" } });
+  EXPECT_TRUE(alignSessions(*store_, { "one", "two" }, {}, control_).status.ok())
+      << "what cannot be read is found anew";
+}
+
+TEST_F(SessionJobs, APersonDecidesOnAlignments)
+{
+  storeRenderedSession(*store_, "one", 12);
+  storeRenderedSession(*store_, "two", 9);
+  EXPECT_EQ(statusOf([&] { acceptAlignment(*store_, "one", "two", 0); }).code, StatusCode::FAILED_PRECONDITION);
+  EXPECT_EQ(statusOf([&] { acceptAlignment(*store_, "one", "missing", 0); }).code, StatusCode::NOT_FOUND);
+  ASSERT_TRUE(alignSessions(*store_, { "one", "two" }, {}, control_).status.ok());
+
+  refuseAlignment(*store_, "two", "one");
+  const alignment::AlignmentResult refused = alignSessions(*store_, { "one", "two" }, {}, control_);
+  EXPECT_EQ(refused.status.code, StatusCode::NO_RESULT);
+  EXPECT_NE(refused.status.message.find("refused by a person"), std::string::npos) << refused.status.message;
+  AlignOptions anew;
+  anew.use_known = false;
+  EXPECT_EQ(alignSessions(*store_, { "one", "two" }, anew, control_).status.code, StatusCode::NO_RESULT);
+
+  EXPECT_EQ(statusOf([&] { acceptAlignment(*store_, "one", "two", 90); }).code, StatusCode::INVALID_ARGUMENT);
+  acceptAlignment(*store_, "one", "two", 0);
+  EXPECT_TRUE(alignSessions(*store_, { "one", "two" }, {}, control_).status.ok());
+  forgetAlignment(*store_, "one", "two");
+  EXPECT_TRUE(knownAlignment(*store_, "one", "two").candidates.empty());
+  EXPECT_TRUE(alignSessions(*store_, { "one", "two" }, {}, control_).status.ok());
+  EXPECT_EQ(knownAlignment(*store_, "one", "two").decision, alignment::Decision::AUTOMATIC);
 }
 
 TEST_F(SessionJobs, AlignRefusesASessionWithoutMasks)

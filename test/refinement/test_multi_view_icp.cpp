@@ -159,6 +159,29 @@ TEST_F(MultiViewIcp, AlignsSessionsInOneFrame)
   expectBack(refine(keyframes));
 }
 
+TEST_F(MultiViewIcp, MovesBodiesAsAWhole)
+{
+  std::vector<rgbd::Keyframe> keyframes = truth_;
+  geometry::Vector6d off;
+  off << 0.006, -0.004, 0.003, 0.01, -0.01, 0.03;
+  for (std::size_t k = 0; k < keyframes.size(); ++k)
+  {
+    options_.bodies.push_back(static_cast<int>(k % 2));
+    if (k % 2 == 1)
+      keyframes[k].T_session_camera = geometry::isometryFromVector(off) * keyframes[k].T_session_camera;
+  }
+  const MultiViewIcpResult result = refine(keyframes);
+  expectBack(result);
+  for (std::size_t k = 2; k < keyframes.size(); ++k)
+  {
+    const Eigen::Isometry3d was = keyframes[k % 2].T_session_camera.inverse() * keyframes[k].T_session_camera;
+    const Eigen::Isometry3d is = result.T_session_camera[k % 2].inverse() * result.T_session_camera[k];
+    EXPECT_TRUE(is.isApprox(was, 1e-9)) << k;
+  }
+  options_.bodies = { 0, 1 };
+  EXPECT_THROW(refine(keyframes), base::Error);
+}
+
 TEST_F(MultiViewIcp, CancelledThrows)
 {
   for (const std::string stage : { "overlap", "surfaces", "multi-view icp" })

@@ -36,10 +36,11 @@ enum class ProposalKind
 {
   FEATURES,
   STABLE_PLANE,
-  SHAPE
+  SHAPE,
+  BY_HAND  ///< a person showed points
 };
 
-/// "features", "stable_plane" or "shape".
+/// "features", "stable_plane", "shape" or "by_hand".
 std::string nameOf(ProposalKind kind);
 
 struct PairCandidate

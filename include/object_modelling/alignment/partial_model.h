@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,8 +43,8 @@ struct ObjectFeatures
   int norm = 0;                         ///< cv::NormTypes that tells them apart
 };
 
-/// The part of an object's surface that one session saw, thinned for matching. Points, normals and colours have the
-/// same length; session frame.
+/// The part of an object's surface that one session saw, thinned for matching. Points, normals and both colours have
+/// the same length; session frame.
 struct PartialModel
 {
   std::string session_id;
@@ -52,6 +53,7 @@ struct PartialModel
   /// What the light leaves alone: brightness against that of the surroundings, and two chromaticities; each about as
   /// large as the others matter. Zero without colour.
   std::vector<Eigen::Vector3f> colors;
+  std::vector<Eigen::Matrix<std::uint8_t, 3, 1>> colors_rgb;  ///< as recorded, for people
   double spacing_m = 0;
   std::optional<geometry::Plane> support_plane;
   std::vector<SpaceView> views;

@@ -7,10 +7,22 @@
 
 namespace object_modelling::alignment
 {
+/// Whether a person has decided on a pair. That stands: it is neither found anew nor left out for another pair's sake.
+enum class Decision
+{
+  AUTOMATIC,
+  ACCEPTED,
+  REFUSED
+};
+
+/// "automatic", "accepted" or "refused".
+std::string nameOf(Decision decision);
+
 /// What was found for two sessions.
 struct AlignmentEdge
 {
   std::string session_a, session_b;
+  Decision decision = Decision::AUTOMATIC;
   bool accepted = false;
   bool used = false;   ///< a placement rests on it; an accepted one that is not used closed a cycle, or failed to
   std::string reason;  ///< why it was refused, or left out
@@ -36,9 +48,13 @@ struct AlignmentResult
 };
 
 /// Places the sessions of one object in the frame of the first of them (where that one fits none, of the first that
-/// does): every pair is aligned, the maximum spanning tree on the probability places them, and the other accepted edges
-/// check it. A session that does not connect is left out and named, never left at identity. `known_edges` are taken
-/// over instead of being found again. Deterministic.
+/// does): the maximum spanning tree on the probability of the accepted edges places them, and the others check it. A
+/// session that does not connect is left out and named, never left at identity.
+AlignmentResult placeSessions(const std::vector<PartialModel>& parts, std::vector<AlignmentEdge> edges);
+
+/// Aligns every pair of sessions, and places them. Of `known_edges`, those
+/// that a person decided stand; an accepted one is taken over, at its pose moved into place, where the parts still
+/// bear it out; the rest is found anew. Deterministic.
 AlignmentResult alignSessions(const std::vector<PartialModel>& parts, const std::vector<AlignmentEdge>& known_edges,
                               const PairAlignmentOptions& options, base::JobControl& control);
 

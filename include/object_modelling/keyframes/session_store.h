@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "object_modelling/base/status.h"
+#include "object_modelling/keyframes/alignment_record.h"
 #include "object_modelling/keyframes/session.h"
 #include "object_modelling/rgbd/keyframe.h"
 
@@ -48,6 +49,12 @@ public:
   virtual rgbd::Keyframe keyframe(const std::string& session_id, int keyframe_id) = 0;
   virtual void updatePoses(const std::string& session_id, const std::vector<PoseUpdate>& updates) = 0;
   virtual void updateMasks(const std::string& session_id, const std::vector<MaskUpdate>& updates) = 0;
+
+  /// How sessions lie to each other, as far as that is known; ordered by their ids.
+  virtual std::vector<AlignmentRecord> alignments() = 0;
+  /// Replaces what is known of these pairs; one without findings is forgotten. A session takes its own with it when it
+  /// is deleted.
+  virtual void updateAlignments(const std::vector<AlignmentRecord>& records) = 0;
 
   /// One session as a store file of its own (SQLite, whatever the backend), and back under its own id. Neither replaces
   /// what is there: FAILED_PRECONDITION if the file, or on import the session, exists.

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "object_modelling/alignment/session_alignment.h"
 #include "object_modelling/base/job_control.h"
 #include "object_modelling/keyframes/session_store.h"
 #include "object_modelling/refinement/bundle_adjustment.h"
@@ -33,17 +32,5 @@ SegmentReport segmentSession(keyframes::SessionStore& store, const std::string& 
 refinement::BundleAdjustmentResult refineSession(keyframes::SessionStore& store, const std::string& session_id,
                                                  refinement::BundleAdjustmentOptions options,
                                                  base::JobControl& control);
-
-struct AlignOptions
-{
-  alignment::PartialModelOptions part;
-  alignment::PairAlignmentOptions pair;
-  std::vector<std::string> violations() const;
-};
-
-/// Places the sessions of one object relative to the first; writes nothing (the model frame is set when it is built).
-/// One session needs no alignment, and nothing of it is looked at.
-alignment::AlignmentResult alignSessions(keyframes::SessionStore& store, const std::vector<std::string>& session_ids,
-                                         const AlignOptions& options, base::JobControl& control);
 
 }  // namespace object_modelling::pipeline

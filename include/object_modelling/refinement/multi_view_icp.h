@@ -34,6 +34,9 @@ struct MultiViewIcpOptions
   double color_weight = 1;
   /// Pixel of a point in the colour image minus its pixel in the depth image (see BundleAdjustmentResult).
   Eigen::Vector2d color_offset_px = Eigen::Vector2d::Zero();
+  /// Per keyframe: those of one number keep their poses relative to each other and move as one (sessions that were
+  /// refined by themselves, on more than the object); partners are sought in other bodies alone. Empty: each by itself.
+  std::vector<int> bodies;
   int max_iterations = 60;  ///< associations, over all gates
   int threads = 2;          ///< any number gives the same bits
   std::vector<std::string> violations() const;

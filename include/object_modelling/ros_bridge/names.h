@@ -27,6 +27,8 @@ constexpr char ADD_KEYFRAME[] = "add_keyframe";
 constexpr char GET_KEYFRAME[] = "get_keyframe";
 constexpr char UPDATE_POSES[] = "update_poses";
 constexpr char UPDATE_MASKS[] = "update_masks";
+constexpr char GET_ALIGNMENTS[] = "get_alignments";
+constexpr char UPDATE_ALIGNMENTS[] = "update_alignments";
 constexpr char EXPORT_SESSION[] = "export_session";
 constexpr char IMPORT_SESSION[] = "import_session";
 

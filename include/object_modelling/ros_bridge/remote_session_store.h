@@ -40,6 +40,9 @@ public:
   void updatePoses(const std::string& session_id, const std::vector<keyframes::PoseUpdate>& updates) override;
   void updateMasks(const std::string& session_id, const std::vector<keyframes::MaskUpdate>& updates) override;
 
+  std::vector<keyframes::AlignmentRecord> alignments() override;
+  void updateAlignments(const std::vector<keyframes::AlignmentRecord>& records) override;
+
   void exportSession(const std::string& session_id, const std::string& path) override;
   std::string importSession(const std::string& path) override;
 

@@ -3,11 +3,11 @@
 #include <object_modelling/AlignAction.h>
 
 #include "../common/job_server.h"
-#include "session_aligner_options.h"
+#include "alignment_review.h"
 
 namespace object_modelling::nodes
 {
-/// Node session_aligner: action ~align.
+/// Node session_aligner: action ~align, and what a person sees and decides (AlignmentReview).
 class SessionAligner
 {
 public:
@@ -15,9 +15,11 @@ public:
 
 private:
   object_modelling::AlignResult align(const object_modelling::AlignGoal& goal, base::JobControl& control);
+  alignment::AlignmentResult aligned(const object_modelling::AlignGoal& goal, base::JobControl& control);
 
   SessionAlignerOptions options_;
   ros_bridge::RemoteSessionStore store_;
+  AlignmentReview review_;
   JobServer<object_modelling::AlignAction> server_;
 };
 

@@ -3,17 +3,26 @@
 #include <string>
 #include <vector>
 
+#include "../common/frame_parameters.h"
 #include "../common/store_parameters.h"
-#include "object_modelling/pipeline/session_jobs.h"
+#include "object_modelling/base/options.h"
+#include "object_modelling/pipeline/align_sessions.h"
 
 namespace object_modelling::nodes
 {
 struct SessionAlignerOptions
 {
   pipeline::AlignOptions align;
+  std::string display_frame_id = "alignment";
   ros_bridge::RemoteSessionStoreOptions store;
 
-  std::vector<std::string> violations() const { return align.violations(); }
+  std::vector<std::string> violations() const
+  {
+    base::OptionsCheck check("session_aligner");
+    check.include(align.violations());
+    requireFrameId(check, "display_frame_id", display_frame_id);
+    return check.violations();
+  }
 };
 
 template <typename Reader>
@@ -32,6 +41,8 @@ void read(Reader& reader, SessionAlignerOptions* options)
   reader.read("pair/min_probability", pair.min_probability);
   reader.read("pair/seed", pair.seed);
   reader.read("pair/threads", pair.threads);
+  reader.read("use_known", options->align.use_known);
+  reader.read("display_frame_id", options->display_frame_id);
   read(reader, &options->store);
 }
 

@@ -32,6 +32,8 @@ StoreServices::StoreServices(ros::NodeHandle& private_node, keyframes::SessionSt
   serve<GetKeyframe>(private_node, names::GET_KEYFRAME, &StoreServices::getKeyframe);
   serve<UpdatePoses>(private_node, names::UPDATE_POSES, &StoreServices::updatePoses);
   serve<UpdateMasks>(private_node, names::UPDATE_MASKS, &StoreServices::updateMasks);
+  serve<GetAlignments>(private_node, names::GET_ALIGNMENTS, &StoreServices::getAlignments);
+  serve<UpdateAlignments>(private_node, names::UPDATE_ALIGNMENTS, &StoreServices::updateAlignments);
   serve<ExportSession>(private_node, names::EXPORT_SESSION, &StoreServices::exportSession);
   serve<ImportSession>(private_node, names::IMPORT_SESSION, &StoreServices::importSession);
 }
@@ -99,6 +101,20 @@ void StoreServices::updateMasks(const UpdateMasks::Request& request, UpdateMasks
   for (const ObjectMask& update : request.updates)
     updates.push_back(ros_bridge::fromMessage(update));
   store_.updateMasks(request.session_id, updates);
+}
+
+void StoreServices::getAlignments(const GetAlignments::Request&, GetAlignments::Response& response)
+{
+  for (const keyframes::AlignmentRecord& record : store_.alignments())
+    response.alignments.push_back(ros_bridge::toMessage(record));
+}
+
+void StoreServices::updateAlignments(const UpdateAlignments::Request& request, UpdateAlignments::Response&)
+{
+  std::vector<keyframes::AlignmentRecord> records;
+  for (const AlignmentRecord& record : request.alignments)
+    records.push_back(ros_bridge::fromMessage(record));
+  store_.updateAlignments(records);
 }
 
 void StoreServices::exportSession(const ExportSession::Request& request, ExportSession::Response&)

@@ -6,11 +6,13 @@
 #include <object_modelling/CreateSession.h>
 #include <object_modelling/DeleteSession.h>
 #include <object_modelling/ExportSession.h>
+#include <object_modelling/GetAlignments.h>
 #include <object_modelling/GetKeyframe.h>
 #include <object_modelling/GetSession.h>
 #include <object_modelling/ImportSession.h>
 #include <object_modelling/ListSessions.h>
 #include <object_modelling/SetSessionPose.h>
+#include <object_modelling/UpdateAlignments.h>
 #include <object_modelling/UpdateMasks.h>
 #include <object_modelling/UpdatePoses.h>
 #include <object_modelling/UpdateSession.h>
@@ -44,6 +46,8 @@ private:
   void getKeyframe(const GetKeyframe::Request& request, GetKeyframe::Response& response);
   void updatePoses(const UpdatePoses::Request& request, UpdatePoses::Response& response);
   void updateMasks(const UpdateMasks::Request& request, UpdateMasks::Response& response);
+  void getAlignments(const GetAlignments::Request& request, GetAlignments::Response& response);
+  void updateAlignments(const UpdateAlignments::Request& request, UpdateAlignments::Response& response);
   void exportSession(const ExportSession::Request& request, ExportSession::Response& response);
   void importSession(const ImportSession::Request& request, ImportSession::Response& response);
 

@@ -85,6 +85,16 @@ void WatchedStore::updateMasks(const std::string& session_id, const std::vector<
         [&] { watcher_.onMasks(session_id, updates); });
 }
 
+std::vector<keyframes::AlignmentRecord> WatchedStore::alignments()
+{
+  return opened().alignments();
+}
+
+void WatchedStore::updateAlignments(const std::vector<keyframes::AlignmentRecord>& records)
+{
+  write([&](keyframes::SessionStore& store) { store.updateAlignments(records); });
+}
+
 void WatchedStore::exportSession(const std::string& session_id, const std::string& path)
 {
   opened().exportSession(session_id, path);

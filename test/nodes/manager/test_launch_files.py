@@ -23,7 +23,7 @@ def parameter(config, name):
 
 class LaunchFilesTest(unittest.TestCase):
     def test_all_of_them_are_tested(self):
-        self.assertEqual(set(os.listdir(LAUNCH)), {"object_modelling.launch", "demo.launch"})
+        self.assertEqual(set(os.listdir(LAUNCH)), {"object_modelling.launch", "demo.launch", "alignment_review.launch"})
 
     def test_nodes(self):
         config = load("object_modelling.launch")
@@ -55,6 +55,11 @@ class LaunchFilesTest(unittest.TestCase):
                     "refiner/bundle_adjustment/seed", "session_aligner/store/node", "model_builder/fusion/min_views",
                     "modelling_manager/service_wait_s"):
             parameter(config, key)
+
+    def test_alignment_review(self):
+        node, = load("alignment_review.launch").nodes
+        self.assertEqual((node.package, node.namespace), ("rviz", "/object_modelling/"))
+        self.assertTrue(os.path.exists(node.args.split()[-1]), node.args)
 
     def test_demo(self):
         config = load("demo.launch", "recording:=/r", "object_id:=mug", "rviz:=false")

@@ -1,0 +1,84 @@
+#include "object_modelling/alignment/alignment_by_points.h"
+
+#include <cmath>
+
+#include <Eigen/Dense>
+
+#include "object_modelling/base/options.h"
+#include "object_modelling/base/status.h"
+#include "object_modelling/geometry/transform.h"
+#include "pair_refinement.h"
+
+namespace object_modelling::alignment
+{
+namespace
+{
+constexpr double MIN_WIDTH_M = 0.01;      // of the points across their line: else nothing tells the turn about it
+constexpr double MAX_MISMATCH_M = 0.015;  // rms: a person hits the same spot within some millimetres
+constexpr double MAX_MOVE_RATIO = 0.15;   // of the part's radius that ICP may move it from where the person put it
+constexpr double MAX_TURN_RAD = 0.25;
+
+base::Error refused(const std::string& what)
+{
+  return { base::StatusCode::INVALID_ARGUMENT, what };
+}
+
+std::string millimetres(double length_m)
+{
+  return std::to_string(std::lround(1000 * length_m)) + " mm";
+}
+
+/// Second largest spread of the points.
+double widthOf(const Eigen::Matrix3Xd& points)
+{
+  const Eigen::Matrix3Xd off = points.colwise() - points.rowwise().mean();
+  const Eigen::JacobiSVD<Eigen::Matrix3Xd> svd(off);
+  return svd.singularValues()(1);
+}
+}  // namespace
+
+PairCandidate alignByPoints(const PartialModel& a, const PartialModel& b, const std::vector<PointPair>& pairs,
+                            const PairAlignmentOptions& options, base::JobControl& control)
+{
+  base::checked(options);
+  control.checkCancelled();
+  if (pairs.size() < 3)
+    throw refused(std::to_string(pairs.size()) + " pairs of points: three are needed");
+  Eigen::Matrix3Xd in_a(3, pairs.size()), in_b(3, pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+  {
+    in_a.col(static_cast<Eigen::Index>(i)) = pairs[i].a;
+    in_b.col(static_cast<Eigen::Index>(i)) = pairs[i].b;
+  }
+  if (!in_a.allFinite() || !in_b.allFinite())
+    throw refused("a point is not finite");
+  const double width_m = std::min(widthOf(in_a), widthOf(in_b));
+  if (width_m < MIN_WIDTH_M)
+    throw refused("the points lie on one line, or at one place (" + millimetres(width_m) +
+                  " wide): choose them apart, in a triangle");
+  Eigen::Isometry3d clicked;
+  if (!geometry::rigidTransformFromPoints(in_a, in_b, &clicked))
+    throw refused("the points do not tell a pose: choose them apart, in a triangle");
+  const double mismatch_m = (in_a - clicked * in_b).norm() / std::sqrt(static_cast<double>(pairs.size()));
+  if (mismatch_m > MAX_MISMATCH_M)
+    throw refused("the points of the two sessions do not fit each other by " + millimetres(mismatch_m) + " (at most " +
+                  millimetres(MAX_MISMATCH_M) + "): point at the same spots, in the same order");
+
+  const Part part_a(a, options.threads), part_b(b, options.threads);
+  control.checkCancelled();
+  PairIcpOptions coarse;
+  coarse.gate_m = MAX_MOVE_RATIO * part_a.radius_m;
+  coarse.last_gate_m = 0.3 * coarse.gate_m;
+  Eigen::Isometry3f refined = alignSurfaces(part_a, part_b, clicked.cast<float>(), coarse);
+  const PairQuality quality = refinePose(part_a, part_b, &refined);
+  const Eigen::Vector3d centre = b.centre().cast<double>();
+  const Eigen::Isometry3d T_a_b = geometry::normalised(refined.cast<double>());
+  const bool near = geometry::rotationAngle_rad(clicked.inverse() * T_a_b) < MAX_TURN_RAD &&
+                    (clicked * centre - T_a_b * centre).norm() < MAX_MOVE_RATIO * part_a.radius_m;
+  if (near)
+    return { ProposalKind::BY_HAND, T_a_b, quality };
+  // Where surfaces would slide away, the person knows better.
+  return { ProposalKind::BY_HAND, clicked, measurePair(part_a, part_b, clicked.cast<float>(), true) };
+}
+
+}  // namespace object_modelling::alignment

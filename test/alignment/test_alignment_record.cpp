@@ -1,0 +1,97 @@
+#include "object_modelling/alignment/alignment_record.h"
+
+#include <gtest/gtest.h>
+
+#include "object_modelling/base/status.h"
+
+namespace object_modelling::alignment
+{
+namespace
+{
+AlignmentEdge edge()
+{
+  PairCandidate candidate;
+  candidate.kind = ProposalKind::BY_HAND;
+  candidate.T_a_b =
+      Eigen::Translation3d(0.1, -1.0 / 3, 2e-9) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized());
+  candidate.quality = { 0.57, 1e-3, 4.1e-4, 2e-3, -0.3, 0.11, 0.975 };
+  AlignmentEdge result;
+  result.session_a = "mug_1";
+  result.session_b = "mug_2";
+  result.decision = Decision::ACCEPTED;
+  result.accepted = true;
+  result.reason = "left out: \"a\" says 3 %\nand more: - x";
+  result.candidates = { candidate, PairCandidate() };
+  return result;
+}
+
+std::string refusal(const std::string& findings)
+{
+  try
+  {
+    edgeFrom({ "mug_1", "mug_2", findings });
+  }
+  catch (const base::Error& error)
+  {
+    EXPECT_EQ(error.code(), base::StatusCode::BAD_INPUT);
+    return error.what();
+  }
+  return "";
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to)
+{
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+}  // namespace
+
+TEST(AlignmentRecord, KeepsEverything)
+{
+  const AlignmentEdge before = edge(), after = edgeFrom(recordOf(before));
+  EXPECT_EQ(after.session_a, before.session_a);
+  EXPECT_EQ(after.session_b, before.session_b);
+  EXPECT_EQ(after.decision, before.decision);
+  EXPECT_TRUE(after.accepted);
+  EXPECT_EQ(after.reason, before.reason);
+  ASSERT_EQ(after.candidates.size(), 2u);
+  const PairCandidate &was = before.candidates[0], &is = after.candidates[0];
+  EXPECT_EQ(is.kind, was.kind);
+  EXPECT_EQ(is.T_a_b.matrix(), was.T_a_b.matrix());
+  EXPECT_EQ(is.quality.overlap_ratio, was.quality.overlap_ratio);
+  EXPECT_EQ(is.quality.fsv_ratio, was.quality.fsv_ratio);
+  EXPECT_EQ(is.quality.rmse_m, was.quality.rmse_m);
+  EXPECT_EQ(is.quality.contact_gap_m, was.quality.contact_gap_m);
+  EXPECT_EQ(is.quality.color_agreement, was.quality.color_agreement);
+  EXPECT_EQ(is.quality.texture, was.quality.texture);
+  EXPECT_EQ(is.quality.probability, was.quality.probability);
+}
+
+TEST(AlignmentRecord, KeepsARefusalWithoutPoses)
+{
+  AlignmentEdge refused;
+  refused.session_a = "mug_1";
+  refused.session_b = "mug_2";
+  refused.reason = "no pose";
+  const AlignmentEdge after = edgeFrom(recordOf(refused));
+  EXPECT_EQ(after.decision, Decision::AUTOMATIC);
+  EXPECT_FALSE(after.accepted);
+  EXPECT_EQ(after.reason, "no pose");
+  EXPECT_TRUE(after.candidates.empty());
+}
+
+TEST(AlignmentRecord, NamesWhatIsWrong)
+{
+  const std::string good = recordOf(edge()).findings;
+  EXPECT_TRUE(refusal(good).empty());
+  for (const std::string& bad :
+       { std::string(), std::string("["), std::string("decision: accepted"), replaced(good, "by_hand", "by_magic"),
+         replaced(good, "decision: accepted", "decision: perhaps"), replaced(good, "probability: 0.975", "p: 1"),
+         replaced(good, "0.975", ".nan"), replaced(good, "[1, 0, 0, 0", "[1, 0, 0"),
+         replaced(good, "[1, 0, 0, 0", "[3, 0, 0, 0"), good.substr(0, good.size() / 2) })
+    EXPECT_NE(refusal(bad).find("'mug_1' and 'mug_2'"), std::string::npos) << bad;
+  EXPECT_NE(refusal(replaced(good, "by_hand", "by_magic")).find("'by_magic'"), std::string::npos);
+}
+
+}  // namespace object_modelling::alignment
