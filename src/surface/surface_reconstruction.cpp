@@ -26,7 +26,9 @@ constexpr double CELL_RATIO = 0.5;  ///< of the resolution: between the two side
 /// back.
 constexpr double WALL_RATIO = 1.75;
 constexpr double MIN_PIECE_RATIO = 0.02;  ///< of the largest piece's area
-constexpr double TEETH_RATIO = 0.5;       ///< half the width of what is cut off the rim; in units of the resolution
+/// Half the width of gaps that are closed, in units of the support distance: wider ones bulge.
+constexpr double GAP_RATIO = 0.7;
+constexpr double TEETH_RATIO = 0.5;  ///< half the width of what is cut off the rim; in units of the resolution
 constexpr int STAGES = 4;
 
 /// Largest angle (rad) about `normal` through which no neighbour lies, seen from `center`.
@@ -94,7 +96,8 @@ void colourFromCloud(const fusion::FusedCloud& cloud, const geometry::PointIndex
 std::vector<char> observedMarks(const geometry::TriangleMesh& mesh, const SurfaceOptions& options)
 {
   const std::vector<char> seen(mesh.seen.begin(), mesh.seen.end());
-  return openedMarks(mesh, closedMarks(mesh, seen, options.max_support_distance_m), TEETH_RATIO * options.resolution_m);
+  return openedMarks(mesh, closedMarks(mesh, seen, GAP_RATIO * options.max_support_distance_m),
+                     TEETH_RATIO * options.resolution_m);
 }
 }  // namespace
 

@@ -15,7 +15,7 @@ struct SurfaceOptions
 {
   double resolution_m = 0.002;  ///< detail that is kept; edges are about half as long
   double max_support_distance_m =
-      0.006;                      ///< surface in the middle of gaps wider than twice this was not seen and is cut off
+      0.006;                      ///< surface further than this from any fused point was not seen and is cut off
   bool watertight = false;        ///< keep the surface closed; what was not seen is marked (TriangleMesh::seen)
   std::size_t max_triangles = 0;  ///< fewer triangles than the reconstruction's; 0: as it is
   double max_decimation_error_m = 0.0003;  ///< that no vertex that goes is further from the surface that stays
