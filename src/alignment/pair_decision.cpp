@@ -101,10 +101,11 @@ Difference differenceOf(const Part& a, const Part& b, const Eigen::Isometry3f& b
   return { std::min(one.stray_ratio, other.stray_ratio), std::max(one.color_rms, other.color_rms) };
 }
 
-/// Of being right against being wrong.
-double oddsOf(const PairQuality& quality)
+/// By how many logits the best pose is better than another one of the same two parts.
+double marginOver(const PairQuality& best, const PairQuality& rival)
 {
-  return std::exp(evidenceOf(quality).logit());
+  const double closer = std::log(std::max(rival.rmse_m, 1e-6) / std::max(best.rmse_m, 1e-6));
+  return evidenceOf(best).score() - evidenceOf(rival).score() + INDEPENDENT_PATCHES * std::max(0.0, closer);
 }
 
 double degreesBetween(const Eigen::Isometry3d& x, const Eigen::Isometry3d& y)
@@ -115,9 +116,7 @@ double degreesBetween(const Eigen::Isometry3d& x, const Eigen::Isometry3d& y)
 
 bool scoreAlike(const PairQuality& best, const PairQuality& rival)
 {
-  const double closer = std::log(std::max(rival.rmse_m, 1e-6) / std::max(best.rmse_m, 1e-6));
-  const double ahead = evidenceOf(best).score() - evidenceOf(rival).score();
-  return ahead + INDEPENDENT_PATCHES * std::max(0.0, closer) <= MAX_RIVAL_LOGIT;
+  return marginOver(best, rival) <= MAX_RIVAL_LOGIT;
 }
 
 void decide(const Part& a, const Part& b, const PairAlignmentOptions& options, PairAlignment* result)
@@ -135,19 +134,20 @@ void decide(const Part& a, const Part& b, const PairAlignmentOptions& options, P
     result->reason = whyUnlikely(best.quality, options);
     return;
   }
-  const double best_odds = oddsOf(best.quality);
+  const double best_odds = std::exp(evidenceOf(best.quality).logit());
   double other_odds = 0;  // of poses that would make another object
   for (std::size_t i = 1; i < result->candidates.size(); ++i)
   {
     const PairCandidate& rival = result->candidates[i];
     const bool alike = scoreAlike(best.quality, rival.quality);
-    if (!alike && oddsOf(rival.quality) < MIN_ODDS_RATIO * best_odds)
+    const double odds_ratio = std::exp(-marginOver(best.quality, rival.quality));
+    if (!alike && odds_ratio < MIN_ODDS_RATIO)
       continue;
     const Difference difference = differenceOf(a, b, best.T_a_b.cast<float>(), rival.T_a_b.cast<float>());
     const bool elsewhere = difference.stray_ratio > MAX_STRAY_RATIO;
     if (!elsewhere && difference.color_rms <= SAME_COLOR)
       continue;
-    other_odds += oddsOf(rival.quality);
+    other_odds += odds_ratio * best_odds;
     const double posterior = best_odds / (1 + best_odds + other_odds);
     if (!alike && posterior >= options.min_probability)
       continue;
