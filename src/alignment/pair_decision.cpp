@@ -14,7 +14,6 @@ constexpr double MAX_RIVAL_LOGIT = 1.2;  // nearer to the best than this, poses 
 // Of two poses of the same two parts, the one where they lie closer is the better by as many logits as patches of the
 // surface that err on their own, times the logarithm of the ratio.
 constexpr double INDEPENDENT_PATCHES = 4;
-constexpr double MIN_ODDS_RATIO = 0.02;      // less probable poses change nothing
 constexpr double SAME_SHAPE_SPACINGS = 1.5;  // distance of surfaces that are the same
 constexpr double MAX_STRAY_RATIO = 0.04;     // of the points that may be off such a surface
 constexpr double SAME_COLOR = 0.15;          // rms difference of colours that are the same, with noise and light
@@ -101,13 +100,6 @@ Difference differenceOf(const Part& a, const Part& b, const Eigen::Isometry3f& b
   return { std::min(one.stray_ratio, other.stray_ratio), std::max(one.color_rms, other.color_rms) };
 }
 
-/// By how many logits the best pose is better than another one of the same two parts.
-double marginOver(const PairQuality& best, const PairQuality& rival)
-{
-  const double closer = std::log(std::max(rival.rmse_m, 1e-6) / std::max(best.rmse_m, 1e-6));
-  return evidenceOf(best).score() - evidenceOf(rival).score() + INDEPENDENT_PATCHES * std::max(0.0, closer);
-}
-
 double degreesBetween(const Eigen::Isometry3d& x, const Eigen::Isometry3d& y)
 {
   return geometry::rotationAngle_rad(x.inverse() * y) * 180 / M_PI;
@@ -116,7 +108,9 @@ double degreesBetween(const Eigen::Isometry3d& x, const Eigen::Isometry3d& y)
 
 bool scoreAlike(const PairQuality& best, const PairQuality& rival)
 {
-  return marginOver(best, rival) <= MAX_RIVAL_LOGIT;
+  const double closer = std::log(std::max(rival.rmse_m, 1e-6) / std::max(best.rmse_m, 1e-6));
+  const double ahead = evidenceOf(best).score() - evidenceOf(rival).score();
+  return ahead + INDEPENDENT_PATCHES * std::max(0.0, closer) <= MAX_RIVAL_LOGIT;
 }
 
 void decide(const Part& a, const Part& b, const PairAlignmentOptions& options, PairAlignment* result)
@@ -134,32 +128,26 @@ void decide(const Part& a, const Part& b, const PairAlignmentOptions& options, P
     result->reason = whyUnlikely(best.quality, options);
     return;
   }
-  const double best_odds = std::exp(evidenceOf(best.quality).logit());
-  double other_odds = 0;  // of poses that would make another object
   for (std::size_t i = 1; i < result->candidates.size(); ++i)
   {
     const PairCandidate& rival = result->candidates[i];
-    const bool alike = scoreAlike(best.quality, rival.quality);
-    const double odds_ratio = std::exp(-marginOver(best.quality, rival.quality));
-    if (!alike && odds_ratio < MIN_ODDS_RATIO)
+    if (!scoreAlike(best.quality, rival.quality))
       continue;
     const Difference difference = differenceOf(a, b, best.T_a_b.cast<float>(), rival.T_a_b.cast<float>());
-    const bool elsewhere = difference.stray_ratio > MAX_STRAY_RATIO;
-    if (!elsewhere && difference.color_rms <= SAME_COLOR)
-      continue;
-    other_odds += odds_ratio * best_odds;
-    const double posterior = best_odds / (1 + best_odds + other_odds);
-    if (!alike && posterior >= options.min_probability)
-      continue;
-    const std::string apart = "two poses " + std::to_string(std::lround(degreesBetween(best.T_a_b, rival.T_a_b))) +
-                              " deg apart " +
-                              (alike ? "score alike" : "are both probable, the better one with " + percent(posterior));
-    result->reason = elsewhere ? apart + ", and " + percent(difference.stray_ratio) +
-                                     " of the surface would lie elsewhere: record another view that joins the two"
-                               : apart +
-                                     ": the shape is symmetric, and the texture that both sessions saw does not "
-                                     "decide";
-    return;
+    const std::string apart = std::to_string(std::lround(degreesBetween(best.T_a_b, rival.T_a_b))) + " deg";
+    if (difference.stray_ratio > MAX_STRAY_RATIO)
+    {
+      result->reason = "two poses " + apart + " apart score alike, and " + percent(difference.stray_ratio) +
+                       " of the surface would lie elsewhere: record another view that joins the two";
+      return;
+    }
+    if (difference.color_rms > SAME_COLOR)
+    {
+      result->reason = "two poses " + apart +
+                       " apart score alike: the shape is symmetric, and the texture that both "
+                       "sessions saw does not decide";
+      return;
+    }
   }
   result->accepted = true;
 }

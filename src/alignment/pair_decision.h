@@ -8,8 +8,7 @@ namespace object_modelling::alignment
 bool scoreAlike(const PairQuality& best, const PairQuality& rival);
 
 /// Accepts the first candidate, or says why not: nothing fits, too little in common, empty space or the support plane
-/// violated, or another pose that fits alike and would make another object. Poses that would do so share the
-/// probability: best / (none + best + others), in odds.
+/// violated, or another pose that fits alike and would make another object.
 void decide(const Part& a, const Part& b, const PairAlignmentOptions& options, PairAlignment* result);
 
 }  // namespace object_modelling::alignment
