@@ -7,8 +7,8 @@
 #include <Eigen/Eigenvalues>
 #include <opencv2/imgproc.hpp>
 
-#include "object_modelling/geometry/convex_hull.h"
 #include "object_modelling/base/status.h"
+#include "object_modelling/geometry/convex_hull.h"
 
 namespace object_modelling::geometry
 {

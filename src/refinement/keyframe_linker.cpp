@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "object_modelling/refinement/keyframe_features.h"
 #include "link_verification.h"
 #include "object_modelling/base/options.h"
+#include "object_modelling/refinement/keyframe_features.h"
 #include "pair_selection.h"
 
 namespace object_modelling::refinement
