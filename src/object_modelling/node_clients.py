@@ -1,7 +1,9 @@
 """Calls of the other nodes' services and actions: each ends in time, and a node that is down is named."""
 import threading
+import time
 
 import actionlib
+from actionlib import CommState
 from actionlib_msgs.msg import GoalStatusArray
 import rospy
 
@@ -60,7 +62,9 @@ class ActionClient:
         self._name = rospy.resolve_name(name)
         self._wait_s = wait_s
         self._silence_s = silence_s
-        self._client = actionlib.SimpleActionClient(name, action_type)
+        # Not SimpleActionClient: it drops what a server reports before its send_goal() has returned, and then waits for
+        # ever for the end of a goal that ended at once.
+        self._client = actionlib.ActionClient(name, action_type)
         # An action server publishes its status all the time: silence means that it is gone.
         self._last_sign = rospy.get_time()
         self._status = rospy.Subscriber(name + "/status", GoalStatusArray, self._on_status, queue_size=1)
@@ -75,24 +79,35 @@ class ActionClient:
             raise NodeDown("action '%s'" % self._name, "not offered within %g s" % self._wait_s)
         latest = {}
         self._last_sign = rospy.get_time()
-        self._client.send_goal(goal, feedback_cb=lambda feedback: latest.update(feedback=feedback))
+        handle = self._client.send_goal(goal, feedback_cb=lambda _, feedback: latest.update(feedback=feedback))
         try:
-            self._follow(latest, progress)
+            self._follow(handle, latest, progress)
         except Failure:
-            self._client.cancel_goal()
-            self._client.wait_for_result(rospy.Duration(self._silence_s))
-            result = self._client.get_result()
+            handle.cancel()
+            self._wait_for_end(handle, self._silence_s)
+            result = handle.get_result()
             if result is None or result.status.code != Code.OK:
                 raise
             return result  # it had ended before the cancel reached it
-        result = self._client.get_result()
+        result = handle.get_result()
         if result is None:
             raise NodeDown("action '%s'" % self._name,
-                           self._client.get_goal_status_text() or "its node was restarted while it worked")
+                           handle.get_goal_status_text() or "its node was restarted while it worked")
         return result
 
-    def _follow(self, latest, progress):
-        while not self._client.wait_for_result(rospy.Duration(self.POLL_S)):
+    @staticmethod
+    def _wait_for_end(handle, timeout_s):
+        end = time.monotonic() + timeout_s
+        # A cancel that comes late takes a goal out of DONE again; its result stays.
+        while handle.get_comm_state() != CommState.DONE and handle.get_result() is None:
+            if time.monotonic() > end:
+                return False
+            time.sleep(0.005)
+        return True
+
+    def _follow(self, handle, latest, progress):
+        sent = rospy.get_time()
+        while not self._wait_for_end(handle, self.POLL_S):
             if rospy.is_shutdown():
                 raise Failure(Code.CANCELLED, "the manager is being shut down")
             feedback = latest.get("feedback")
@@ -102,3 +117,6 @@ class ActionClient:
                 progress(feedback.stage, feedback.done, feedback.total)
             if rospy.get_time() - self._last_sign > self._silence_s:
                 raise NodeDown("action '%s'" % self._name, "silent for %g s while it worked" % self._silence_s)
+            waiting = handle.get_comm_state() == CommState.WAITING_FOR_GOAL_ACK
+            if waiting and rospy.get_time() - sent > self._silence_s:
+                raise NodeDown("action '%s'" % self._name, "did not take the goal within %g s" % self._silence_s)

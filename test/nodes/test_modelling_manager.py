@@ -13,7 +13,8 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from fake_nodes import FakeJobs, FakeRecording
 from object_modelling import msg, srv
 from object_modelling.msg import ManagerState, Progress
-from object_modelling.outcome import Code
+from object_modelling.node_clients import ActionClient
+from object_modelling.outcome import Code, NodeDown
 
 
 class ManagerTest(unittest.TestCase):
@@ -212,6 +213,34 @@ class BuildTest(ManagerTest):
         self.wait_until(lambda: self.state.status.code == Code.NO_RESULT, "the reason in ~state")
 
 
+class ActionClientTest(ManagerTest):
+    def make(self, after_sending):
+        client = ActionClient("refiner/refine", msg.RefineAction, wait_s=5, silence_s=1)
+        goals = client._client.manager  # pylint: disable=protected-access
+        send = goals.send_goal_fn
+
+        def send_and_go_on(goal):
+            after_sending(send, goal)
+
+        goals.register_send_goal_fn(send_and_go_on)
+        return client
+
+    def test_goal_that_ends_before_sending_has_returned(self):
+        def slow_sender(send, goal):
+            send(goal)
+            self.assertTrue(self.jobs.refine.started.wait(10))
+            time.sleep(0.5)
+
+        end = time.monotonic() + 10
+        client = self.make(slow_sender)
+        result = client.run(msg.RefineGoal(), lambda *_: self.assertLess(time.monotonic(), end, "waits for ever"))
+        self.assertEqual(result.status.code, Code.OK)
+
+    def test_goal_that_never_arrives(self):
+        with self.assertRaisesRegex(NodeDown, "did not take the goal within 1 s"):
+            self.make(lambda send, goal: None).run(msg.RefineGoal(), lambda *_: None)
+
+
 class DeadJobTest(ManagerTest):
     """Last, since it takes the refiner down for good."""
 
@@ -228,7 +257,8 @@ class DeadJobTest(ManagerTest):
 
 def suite():
     loader = unittest.TestLoader()
-    return unittest.TestSuite(loader.loadTestsFromTestCase(case) for case in (RecordingTest, BuildTest, DeadJobTest))
+    cases = (RecordingTest, BuildTest, ActionClientTest, DeadJobTest)
+    return unittest.TestSuite(loader.loadTestsFromTestCase(case) for case in cases)
 
 
 if __name__ == "__main__":
