@@ -21,7 +21,7 @@ constexpr double CONVERGED_RATIO = 1e-6;  // step against the size of the refere
 /// Rotations spread evenly over all (Alexa, Super-Fibonacci Spirals, CVPR 2022).
 Eigen::Quaterniond evenRotation(int index, int count)
 {
-  const double PSI = 1.533751168755204288118041;
+  static constexpr double PSI = 1.533751168755204288118041;
   const double s = index + 0.5;
   const double r = std::sqrt(s / count), R = std::sqrt(1 - s / count);
   const double alpha = 2 * M_PI * s / M_SQRT2, beta = 2 * M_PI * s / PSI;

@@ -34,7 +34,7 @@ std::string findProgram(const fs::path& own_folder)
   std::error_code ignored;
   if (!own_folder.empty() && fs::is_regular_file(own_folder / PROGRAM, ignored))
     return (own_folder / PROGRAM).string();
-  const std::string found = process::search_path(PROGRAM).string();
+  std::string found = process::search_path(PROGRAM).string();
   if (found.empty())
     throw Error(StatusCode::NOT_FOUND, std::string("the program '") + PROGRAM +
                                            "' is neither beside this one nor in PATH; is the package installed?");

@@ -139,12 +139,13 @@ void reportKnowledge(const std::vector<rgbd::Keyframe>& keyframes, const std::ve
   for (const IcpError& error : problem.errors(outcome.T_session_camera, outcome.T_session_camera))
     all.add(error);
   const double variance = all.weight > 0 ? all.squared_sigmas / all.weight : 1;
-  std::vector<geometry::Matrix6d> A_of(keyframes.size(), geometry::Matrix6d::Zero()), noise_of = A_of;
+  std::vector<geometry::Matrix6d> information_of(keyframes.size(), geometry::Matrix6d::Zero()),
+      noise_of = information_of;
   for (std::size_t e = 0; e < equations.size(); ++e)
   {
     for (const int k : { equations[e].a, equations[e].b })
     {
-      A_of[k] += equations[e].A;
+      information_of[k] += equations[e].A;
       noise_of[k] += noise[e];
     }
     equations[e].A = withoutNoise(equations[e].A, noise[e]) / (CORRELATED_POINTS * std::max(variance, 1e-3));
@@ -159,7 +160,7 @@ void reportKnowledge(const std::vector<rgbd::Keyframe>& keyframes, const std::ve
     const int k = outcome.members[i];
     result->covariance[k] = covariances[k];
     const Eigen::Vector3d centre = centreOf(keyframes[k].frame, object_only, outcome.T_session_camera[k]);
-    std::vector<FreeDirection> free = unresisted(keyframes[k].id, A_of[k], noise_of[k], centre);
+    std::vector<FreeDirection> free = unresisted(keyframes[k].id, information_of[k], noise_of[k], centre);
     if (free.empty())
       free = unknown(keyframes[k].id, covariances[k], centre);
     result->free_directions.insert(result->free_directions.end(), free.begin(), free.end());

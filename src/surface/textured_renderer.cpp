@@ -50,7 +50,7 @@ MeshView renderTexturedMesh(const TexturedMesh& textured, const geometry::Pinhol
       const Eigen::Vector3f bgr =
           colorAt(textured.texture_bgr, texelOnRay(textured, triangle, T_camera_model, fine_camera.unproject(u, v, 1)));
       for (int c = 0; c < 3; ++c)
-        color.at<cv::Vec3b>(v, u)[c] = static_cast<std::uint8_t>(bgr[c] + 0.5f);
+        color.at<cv::Vec3b>(v, u)[c] = cv::saturate_cast<std::uint8_t>(bgr[c]);
     }
   cv::resize(color, view.color_bgr, view.color_bgr.size(), 0, 0, cv::INTER_AREA);
   return view;
