@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <queue>
 #include <utility>
 
@@ -72,6 +73,30 @@ std::vector<char> openedMarks(const geometry::TriangleMesh& mesh, const std::vec
   for (std::size_t i = 0; i < marks.size(); ++i)
     result[i] = static_cast<char>(result[i] && marks[i]);
   return result;
+}
+
+void closeTinyHoles(std::size_t max_edges, geometry::TriangleMesh* mesh)
+{
+  const TriangleNeighbours neighbours = triangleNeighbours(*mesh);
+  std::map<std::uint32_t, std::uint32_t> next;  // along the rims, as their triangles run
+  for (std::size_t t = 0; t < mesh->triangles.size(); ++t)
+    for (int i = 0; i < 3; ++i)
+      if (neighbours[t][i] < 0)
+        next[mesh->triangles[t][i]] = mesh->triangles[t][(i + 1) % 3];
+  while (!next.empty())
+  {
+    std::vector<std::uint32_t> rim;
+    const std::uint32_t start = next.begin()->first;
+    for (auto at = next.begin(); at != next.end(); at = next.find(rim.back()))
+    {
+      rim.push_back(at->second);
+      next.erase(at);
+    }
+    if (rim.back() != start || rim.size() < 3 || rim.size() > max_edges)
+      continue;
+    for (std::size_t i = 1; i + 1 < rim.size(); ++i)
+      mesh->triangles.push_back({ rim[0], rim[i + 1], rim[i] });
+  }
 }
 
 }  // namespace object_modelling::surface

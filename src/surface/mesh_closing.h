@@ -14,4 +14,7 @@ std::vector<char> closedMarks(const geometry::TriangleMesh& mesh, const std::vec
 /// Morphological opening: without what is less than twice `reach_m` wide, such as the teeth of a ragged rim.
 std::vector<char> openedMarks(const geometry::TriangleMesh& mesh, const std::vector<char>& marks, double reach_m);
 
+/// Closes holes with a rim of at most `max_edges`, by triangles between its vertices. What has a longer rim stays open.
+void closeTinyHoles(std::size_t max_edges, geometry::TriangleMesh* mesh);
+
 }  // namespace object_modelling::surface

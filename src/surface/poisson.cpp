@@ -30,11 +30,16 @@ geometry::TriangleMesh poissonSurface(const std::vector<Eigen::Vector3f>& points
     (*cloud)[i].getNormalVector3fMap() = normals[i];
     box.extend(points[i]);
   }
-  const double cells = BOX_SCALE * box.sizes().maxCoeff() / cell_size_m;
+  // The octree is as large as makes its cells just as large as asked for: else objects of nearly the same size would be
+  // meshed twice as finely, or not.
+  const double size_m = box.sizes().maxCoeff();
+  const double cells = BOX_SCALE * size_m / cell_size_m;
+  const int depth = std::clamp(static_cast<int>(std::ceil(std::log2(std::max(cells, 1.0)))), MIN_DEPTH, MAX_DEPTH);
+  const double scale = std::max<double>(BOX_SCALE, cell_size_m * std::exp2(depth) / size_m);
 
   pcl::Poisson<pcl::PointNormal> poisson;
-  poisson.setDepth(std::clamp(static_cast<int>(std::ceil(std::log2(std::max(cells, 1.0)))), MIN_DEPTH, MAX_DEPTH));
-  poisson.setScale(BOX_SCALE);
+  poisson.setDepth(depth);
+  poisson.setScale(static_cast<float>(scale));
   poisson.setPointWeight(POINT_WEIGHT);
   poisson.setInputCloud(cloud);
   pcl::PointCloud<pcl::PointNormal> vertices;

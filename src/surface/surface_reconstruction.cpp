@@ -25,9 +25,11 @@ constexpr double CELL_RATIO = 0.5;  ///< of the resolution: between the two side
 /// Poisson's surfaces need a few cells between them: the sides of a thinner wall are meshed this far apart and taken
 /// back.
 constexpr double WALL_RATIO = 1.75;
-constexpr double MIN_PIECE_RATIO = 0.02;  ///< of the largest piece's area
+constexpr double MIN_PIECE_RATIO = 0.005;  ///< of the largest piece's area
 /// Half the width of gaps that are closed, in units of the support distance: wider ones bulge.
 constexpr double GAP_RATIO = 0.7;
+/// PCL leaves out triangles where cells of different size meet ("Vertex pair not in list").
+constexpr std::size_t MAX_TINY_EDGES = 8;
 constexpr double TEETH_RATIO = 0.5;  ///< half the width of what is cut off the rim; in units of the resolution
 constexpr int STAGES = 4;
 
@@ -131,6 +133,7 @@ SurfaceResult reconstructSurface(const fusion::FusedCloud& cloud, const std::opt
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i] += spread_m[i] * normals[i];
   geometry::TriangleMesh mesh = poissonSurface(points, normals, CELL_RATIO * options.resolution_m);
+  closeTinyHoles(MAX_TINY_EDGES, &mesh);
   removeDegenerateTriangles(&mesh);
   geometry::computeNormals(&mesh);
   takeSpreadBack(points, normals, spread_m, &mesh);

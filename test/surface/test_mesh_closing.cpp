@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "object_modelling/surface/mesh_check.h"
+
 namespace object_modelling::surface
 {
 namespace
@@ -76,6 +78,31 @@ TEST(MeshClosing, TakesNothingAndAll)
   EXPECT_EQ(closedMarks(mesh, all, 0.01), all);
   EXPECT_EQ(openedMarks(mesh, none, 0.01), none);
   EXPECT_TRUE(closedMarks({}, {}, 0.01).empty());
+}
+
+TEST(MeshClosing, ClosesHolesOfFewEdgesAndNoOthers)
+{
+  const geometry::TriangleMesh whole = square();
+  const std::size_t rim = checkMesh(whole).boundary_edge_count;
+  for (const std::size_t missing : { 1, 2, 40 })
+  {
+    geometry::TriangleMesh mesh = whole;
+    const auto first = mesh.triangles.begin() + 20 * 2 * (SIDE - 1) + 30;  // in the middle
+    mesh.triangles.erase(first, first + static_cast<std::ptrdiff_t>(missing));
+    closeTinyHoles(8, &mesh);
+    const MeshCheck check = checkMesh(mesh);
+    if (missing < 3)
+      EXPECT_EQ(check.boundary_edge_count, rim);
+    else
+      EXPECT_GT(check.boundary_edge_count, rim);
+    EXPECT_EQ(check.misoriented_edge_count, 0u);
+    EXPECT_EQ(check.non_manifold_edge_count, 0u);
+  }
+  geometry::TriangleMesh triangle;
+  triangle.vertices = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
+  triangle.triangles = { { 0, 1, 2 } };
+  closeTinyHoles(2, &triangle);
+  EXPECT_EQ(triangle.triangles.size(), 1u);
 }
 
 }  // namespace object_modelling::surface
