@@ -11,11 +11,8 @@ namespace object_modelling::calibration
 {
 namespace
 {
-using Model = rgbd::SensorNoiseModel;
-
-constexpr int COLUMNS = Model::DISTORTION_COLUMNS;
-constexpr int ROWS = Model::DISTORTION_ROWS;
-constexpr int KNOTS = COLUMNS * ROWS;
+using Grid = rgbd::DistortionGrid;
+constexpr int COLUMNS = Grid::COLUMNS, ROWS = Grid::ROWS, KNOTS = Grid::KNOTS;
 constexpr double OFFSET_SIGMA_RATIO = 0.0003;  ///< of a block's offset: its noise, and what the knots cannot follow
 constexpr double PRIOR_RATIO = 0.01;
 constexpr double SMOOTHNESS_RATIO = 0.003;  ///< second differences of neighbouring knots
@@ -42,17 +39,12 @@ ViewEquations equationsOf(const WallView& view, const Image& image)
   for (Eigen::Index i = 0; i < count; ++i)
   {
     const WallBlock& block = view.blocks[i];
-    const double x = block.u_px / (image.width_px - 1) * (COLUMNS - 1);
-    const double y = block.v_px / (image.height_px - 1) * (ROWS - 1);
-    const int column = std::min(static_cast<int>(x), COLUMNS - 2), row = std::min(static_cast<int>(y), ROWS - 2);
-    const double a = x - column, b = y - row;
-    const int knot = row * COLUMNS + column;
-    equations.knots(i, knot) = (1 - a) * (1 - b);
-    equations.knots(i, knot + 1) = a * (1 - b);
-    equations.knots(i, knot + COLUMNS) = (1 - a) * b;
-    equations.knots(i, knot + COLUMNS + 1) = a * b;
+    const Grid::Shares around = Grid::sharesAt(block.u_px, block.v_px, image.width_px, image.height_px);
+    for (std::size_t k = 0; k < around.knot.size(); ++k)
+      equations.knots(i, around.knot[k]) = around.share[k];
     // A change of the plane's inverse depth by dw changes depth by the share -z dw.
-    equations.plane.row(i) << block.z_m * x, block.z_m * y, block.z_m;
+    equations.plane.row(i) << block.z_m * block.u_px / image.width_px, block.z_m * block.v_px / image.height_px,
+        block.z_m;
     equations.offsets[i] = block.offset_ratio;
   }
   return equations;

@@ -24,7 +24,7 @@ void addTrackingOptions(CLI::App& command, RecordArguments* arguments)
       ->capture_default_str();
   command.add_option(
       "--noise-model", arguments->noise_model,
-      "YAML of the sensor's noise, depth bias and colour offset, from calibrate_noise and calibrate_color_offset; "
+      "YAML of the sensor's noise, depth bias, distortion and colour offset, from calibrate_noise and calibrate_camera; "
       "without it a Kinect's");
 }
 

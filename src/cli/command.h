@@ -28,7 +28,7 @@ void addTrackCommand(CLI::App& app, Command* chosen);
 void addAlignCommand(CLI::App& app, Command* chosen);
 void addModelCommand(CLI::App& app, Command* chosen);
 void addCalibrateNoiseCommand(CLI::App& app, Command* chosen);
-void addCalibrateColorOffsetCommand(CLI::App& app, Command* chosen);
+void addCalibrateCameraCommand(CLI::App& app, Command* chosen);
 void addInfoCommand(CLI::App& app, Command* chosen);
 void addReportCommand(CLI::App& app, Command* chosen);
 void addCompareCommand(CLI::App& app, Command* chosen);

@@ -98,7 +98,7 @@ int main(int argc, char** argv)
   cli::addModelCommand(app, &command);
   cli::addAlignCommand(app, &command);
   cli::addCalibrateNoiseCommand(app, &command);
-  cli::addCalibrateColorOffsetCommand(app, &command);
+  cli::addCalibrateCameraCommand(app, &command);
   cli::addInfoCommand(app, &command);
   cli::addReportCommand(app, &command);
   cli::addCompareCommand(app, &command);

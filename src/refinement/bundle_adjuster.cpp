@@ -223,6 +223,7 @@ void BundleAdjuster::solve(int fixed, double min_improvement_ratio, Adjustment* 
   solver.calibrate_intrinsics = options_.calibrate_intrinsics;
   solver.calibrate_depth_ratio = options_.calibrate_depth_ratio;
   solver.calibrate_depth_offset = options_.calibrate_depth_offset;
+  solver.calibrate_depth_distortion = options_.calibrate_depth_distortion;
   fitDepths(keyframes_, &state.map);
   solver.min_improvement_ratio = ROUGH_IMPROVEMENT_RATIO;
   adjustment->summary = solveBundle(keyframes_, fixed, solver, *control_, &state);

@@ -31,6 +31,7 @@ BundleAdjustmentResult adjustBundle(const std::vector<rgbd::Keyframe>& keyframes
     keyframe = rgbd::corrected(keyframe, sensor);
   BundleAdjustmentOptions rest = options;
   rest.calibrate_intrinsics = rest.calibrate_depth_ratio = rest.calibrate_depth_offset = false;
+  rest.calibrate_depth_distortion = false;
   BundleAdjustmentResult result = reportOf(right, rest, BundleAdjuster(right, rest, &control).run());
   result.sensor = sensor;
   return result;

@@ -97,9 +97,9 @@ BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, in
     if (sight.depth_m > 0)
     {
       const double sigma_m = keyframes[sight.keyframe].frame.noise_model.axialSigma_m(sight.depth_m, 0);
-      problem.AddResidualBlock(new DepthCost(camera, sight.depth_m, sight.depth_slope_m_px, sigma_m), loss.get(),
-                               motion, landmark, sensor.color_offset_px.data(), &sensor.depth_growth,
-                               &sensor.depth_offset_m);
+      sensor.addDepthCost(std::make_unique<DepthCost>(camera, sight.depth_m, sight.depth_slope_m_px, sigma_m),
+                          sight.pixel, keyframes[sight.keyframe].frame.camera, options, loss.get(), motion, landmark,
+                          &problem);
     }
     solver_options.linear_solver_ordering->AddElementToGroup(landmark, 0);
     solver_options.linear_solver_ordering->AddElementToGroup(motion, 1);
@@ -155,7 +155,9 @@ SightError sightError(const Sight& sight, const geometry::PinholeCamera& camera,
   const Eigen::Vector2d pixel = principal_px + state.sensor.principal_shift_px + state.color_offset_px +
                                 state.sensor.focal_ratio.cwiseProduct(camera.project(p_camera) - principal_px);
   error.pixel_px = p_camera.z() > 1e-3 ? (pixel - sight.pixel).norm() : std::numeric_limits<double>::infinity();
-  const double measured_m = sight.depth_m - sight.depth_slope_m_px.dot(state.color_offset_px);
+  const double distortion = rgbd::DistortionGrid::ratioAt(state.sensor.depth_distortion_ratio, sight.pixel.x(),
+                                                          sight.pixel.y(), camera.width, camera.height);
+  const double measured_m = (1 - distortion) * sight.depth_m - sight.depth_slope_m_px.dot(state.color_offset_px);
   error.depth_m = p_camera.z() - state.sensor.depth_ratio * measured_m - state.sensor.depth_offset_m;
   return error;
 }

@@ -19,8 +19,12 @@ struct BundleSolverOptions
   bool calibrate_intrinsics = false;
   bool calibrate_depth_ratio = false;
   bool calibrate_depth_offset = false;
+  bool calibrate_depth_distortion = false;
 
-  bool calibratesSensor() const { return calibrate_intrinsics || calibrate_depth_ratio || calibrate_depth_offset; }
+  bool calibratesSensor() const
+  {
+    return calibrate_intrinsics || calibrate_depth_ratio || calibrate_depth_offset || calibrate_depth_distortion;
+  }
 };
 
 struct BundleSolverSummary

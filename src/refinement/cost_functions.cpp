@@ -104,4 +104,19 @@ bool DepthCost::Evaluate(const double* const* parameters, double* residuals, dou
   return true;
 }
 
+bool DistortedDepthCost::Evaluate(const double* const* parameters, double* residuals, double** jacobians) const
+{
+  constexpr int FIRST_KNOT = 5;
+  if (!undistorted_->Evaluate(parameters, residuals, jacobians))
+    return false;
+  for (int i = 0; i < 4; ++i)
+  {
+    const double by_knot = undistorted_->sigmasByDistortion() * shares_[i];
+    residuals[0] += by_knot * parameters[FIRST_KNOT + i][0];
+    if (jacobians != nullptr && jacobians[FIRST_KNOT + i] != nullptr)
+      Eigen::Map<Eigen::Vector2d>{ jacobians[FIRST_KNOT + i] } << by_knot, 0;
+  }
+  return true;
+}
+
 }  // namespace object_modelling::refinement

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <memory>
+#include <utility>
+
 #include <ceres/sized_cost_function.h>
 #include <Eigen/Geometry>
 
@@ -60,12 +64,30 @@ public:
   {
   }
   bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override;
+  /// By the share that depth is measured too large.
+  double sigmasByDistortion() const { return depth_m_ / sigma_m_; }
 
 private:
   const LinearisedCamera* camera_;
   double depth_m_;
   Eigen::Vector2d slope_m_px_;
   double sigma_m_;
+};
+
+/// The same where the depth images are distorted. Four blocks more: what depth is measured too large at the knots round
+/// the pixel, as shares of it (1 each).
+class DistortedDepthCost : public ceres::SizedCostFunction<2, 6, 3, 2, 1, 1, 1, 1, 1, 1>
+{
+public:
+  DistortedDepthCost(std::unique_ptr<DepthCost> undistorted, const std::array<double, 4>& shares)
+      : undistorted_(std::move(undistorted)), shares_(shares)
+  {
+  }
+  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override;
+
+private:
+  std::unique_ptr<DepthCost> undistorted_;
+  std::array<double, 4> shares_;
 };
 
 /// Relative pose of two cameras minus that of the link, in sigmas. Blocks: motion of a (6), motion of b (6), offset of

@@ -98,13 +98,13 @@ void FrameBuilder::updateMaps(const geometry::PinholeCamera& camera)
   if (mapped_camera_ == camera)
     return;
   const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
-  cv::Matx33d K_color = K;  // with it a pixel of the result shows what the colour image has that offset farther
-  K_color(0, 2) -= options_.noise_model.color_offset_x_px;
-  K_color(1, 2) -= options_.noise_model.color_offset_y_px;
+  cv::Matx33d shifted = K;  // with it a pixel of the result shows what the colour image has that offset farther
+  shifted(0, 2) -= options_.noise_model.color_offset_x_px;
+  shifted(1, 2) -= options_.noise_model.color_offset_y_px;
   const cv::Size size(camera.width, camera.height);
   cv::Mat map_x;
   cv::Mat map_y;
-  cv::initUndistortRectifyMap(K, camera.distortion, cv::noArray(), K_color, size, CV_32FC1, map_x, map_y);
+  cv::initUndistortRectifyMap(K, camera.distortion, cv::noArray(), shifted, size, CV_32FC1, map_x, map_y);
   cv::convertMaps(map_x, map_y, color_map_, color_map_fraction_, CV_16SC2);
   // A map of its own, rounded: nearest neighbour by the colour map would cut the fraction off, half a pixel too low.
   cv::initUndistortRectifyMap(K, camera.distortion, cv::noArray(), K, size, CV_32FC1, map_x, map_y);
@@ -139,13 +139,7 @@ void FrameBuilder::takeBiasOff(cv::Mat* depth_m)
   if (!model.correctsDepth())
     return;
   if (distortion_ratio_.size() != depth_m->size())
-  {
-    distortion_ratio_.create(depth_m->size(), CV_32FC1);
-    for (int v = 0; v < distortion_ratio_.rows; ++v)
-      for (int u = 0; u < distortion_ratio_.cols; ++u)
-        distortion_ratio_.at<float>(v, u) =
-            static_cast<float>(model.distortionAt_ratio(u, v, distortion_ratio_.cols, distortion_ratio_.rows));
-  }
+    distortion_ratio_ = DistortionGrid::image(model.depth_distortion_ratio, depth_m->size());
   for (int v = 0; v < depth_m->rows; ++v)
   {
     auto* row = depth_m->ptr<float>(v);

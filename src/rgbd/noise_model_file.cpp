@@ -23,23 +23,27 @@ constexpr char NOISE_MODEL[] = "noise_model";
 constexpr char COLOR_OFFSET[] = "color_offset_px";
 constexpr char CORRECTION[] = "correction";
 
+void emitDistortion(YAML::Emitter& out, const DistortionGrid::Ratios& ratios)
+{
+  if (ratios == DistortionGrid::Ratios{})
+    return;
+  out << YAML::Key << DISTORTION << YAML::Value << YAML::BeginSeq;
+  for (int row = 0; row < DistortionGrid::ROWS; ++row)
+  {
+    out << YAML::Flow << YAML::BeginSeq;
+    for (int column = 0; column < DistortionGrid::COLUMNS; ++column)
+      out << base::yamlNumber(ratios[row * DistortionGrid::COLUMNS + column]);
+    out << YAML::EndSeq;
+  }
+  out << YAML::EndSeq;
+}
+
 void emit(YAML::Emitter& out, const SensorNoiseModel& model)
 {
   out << YAML::BeginMap;
   for (const NoiseModelField& field : NOISE_MODEL_FIELDS)
     out << YAML::Key << field.key << YAML::Value << base::yamlNumber(model.*field.value);
-  if (model.depth_distortion_ratio != SensorNoiseModel::Distortion{})
-  {
-    out << YAML::Key << DISTORTION << YAML::Value << YAML::BeginSeq;
-    for (int row = 0; row < SensorNoiseModel::DISTORTION_ROWS; ++row)
-    {
-      out << YAML::Flow << YAML::BeginSeq;
-      for (int column = 0; column < SensorNoiseModel::DISTORTION_COLUMNS; ++column)
-        out << base::yamlNumber(model.depth_distortion_ratio[row * SensorNoiseModel::DISTORTION_COLUMNS + column]);
-      out << YAML::EndSeq;
-    }
-    out << YAML::EndSeq;
-  }
+  emitDistortion(out, model.depth_distortion_ratio);
   out << YAML::EndMap;
 }
 
@@ -56,19 +60,23 @@ std::string knownKeys()
   return keys + DISTORTION;
 }
 
-SensorNoiseModel::Distortion distortionFrom(const YAML::Node& node, const std::string& what)
+DistortionGrid::Ratios distortionFrom(const YAML::Node& node, const std::string& what)
 {
-  SensorNoiseModel::Distortion distortion{};
-  bool fits = node.IsSequence() && node.size() == SensorNoiseModel::DISTORTION_ROWS;
+  DistortionGrid::Ratios distortion{};
+  bool fits = node.IsSequence() && node.size() == DistortionGrid::ROWS;
   for (std::size_t row = 0; fits && row < node.size(); ++row)
   {
-    fits = node[row].IsSequence() && node[row].size() == SensorNoiseModel::DISTORTION_COLUMNS;
+    fits = node[row].IsSequence() && node[row].size() == DistortionGrid::COLUMNS;
     for (std::size_t column = 0; fits && column < node[row].size(); ++column)
-      distortion[row * SensorNoiseModel::DISTORTION_COLUMNS + column] = node[row][column].as<double>();
+    {
+      const auto ratio = node[row][column].as<double>();
+      fits = fits && std::isfinite(ratio);
+      distortion[row * DistortionGrid::COLUMNS + column] = ratio;
+    }
   }
   if (!fits)
-    refuse(what, std::string(DISTORTION) + " must be " + std::to_string(SensorNoiseModel::DISTORTION_ROWS) +
-                     " rows of " + std::to_string(SensorNoiseModel::DISTORTION_COLUMNS) + " numbers");
+    refuse(what, std::string(DISTORTION) + " must be " + std::to_string(DistortionGrid::ROWS) + " rows of " +
+                     std::to_string(DistortionGrid::COLUMNS) + " numbers");
   return distortion;
 }
 
@@ -111,6 +119,7 @@ void emit(YAML::Emitter& out, const SensorCorrection& correction)
   number("principal_shift_y_px", correction.principal_shift_px.y());
   number("depth_ratio", correction.depth_ratio);
   number("depth_offset_m", correction.depth_offset_m);
+  emitDistortion(out, correction.depth_distortion_ratio);
   out << YAML::EndMap;
 }
 
@@ -130,6 +139,8 @@ SensorCorrection correctionFrom(const YAML::Node& node, const std::string& what)
   correction.principal_shift_px = { number("principal_shift_x_px"), number("principal_shift_y_px") };
   correction.depth_ratio = number("depth_ratio");
   correction.depth_offset_m = number("depth_offset_m");
+  if (node[DISTORTION])
+    correction.depth_distortion_ratio = distortionFrom(node[DISTORTION], what);
   if (!(correction.focal_ratio.minCoeff() > 0 && correction.depth_ratio > 0))
     refuse(what, std::string(CORRECTION) + ": ratios must be positive");
   return correction;

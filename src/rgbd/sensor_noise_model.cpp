@@ -44,22 +44,10 @@ double SensorNoiseModel::depthBias_m(double z_m) const
   return depth_bias_constant_m + z_m * (depth_bias_linear_ratio + z_m * depth_bias_quadratic_per_m);
 }
 
-double SensorNoiseModel::distortionAt_ratio(double u_px, double v_px, int width_px, int height_px) const
-{
-  const double x = std::clamp(u_px / (width_px - 1), 0.0, 1.0) * (DISTORTION_COLUMNS - 1);
-  const double y = std::clamp(v_px / (height_px - 1), 0.0, 1.0) * (DISTORTION_ROWS - 1);
-  const int column = std::min(static_cast<int>(x), DISTORTION_COLUMNS - 2);
-  const int row = std::min(static_cast<int>(y), DISTORTION_ROWS - 2);
-  const double* knot = &depth_distortion_ratio[row * DISTORTION_COLUMNS + column];
-  const double a = x - column, b = y - row;
-  return (1 - b) * ((1 - a) * knot[0] + a * knot[1]) +
-         b * ((1 - a) * knot[DISTORTION_COLUMNS] + a * knot[DISTORTION_COLUMNS + 1]);
-}
-
 bool SensorNoiseModel::correctsDepth() const
 {
   return depth_bias_constant_m != 0 || depth_bias_linear_ratio != 0 || depth_bias_quadratic_per_m != 0 ||
-         depth_distortion_ratio != Distortion{};
+         depth_distortion_ratio != DistortionGrid::Ratios{};
 }
 
 bool SensorNoiseModel::operator==(const SensorNoiseModel& other) const

@@ -25,14 +25,31 @@ void forEachCoefficient(Model& model, Message& message, const Copy& copy)
   copy(model.color_offset_x_px, message.color_offset_x_px);
   copy(model.color_offset_y_px, message.color_offset_y_px);
 }
+
+std::vector<double> toMessage(const rgbd::DistortionGrid::Ratios& ratios)
+{
+  if (ratios == rgbd::DistortionGrid::Ratios{})
+    return {};
+  return { ratios.begin(), ratios.end() };
+}
+
+rgbd::DistortionGrid::Ratios distortionFrom(const std::vector<double>& knots, const std::string& what)
+{
+  rgbd::DistortionGrid::Ratios ratios{};
+  if (!knots.empty() && knots.size() != ratios.size())
+    throw base::Error(base::StatusCode::INVALID_ARGUMENT, what + ": depth_distortion_ratio has " +
+                                                              std::to_string(knots.size()) + " knots; it must have " +
+                                                              std::to_string(ratios.size()) + " or none");
+  std::copy(knots.begin(), knots.end(), ratios.begin());
+  return ratios;
+}
 }  // namespace
 
 object_modelling::SensorNoiseModel toMessage(const rgbd::SensorNoiseModel& model)
 {
   object_modelling::SensorNoiseModel message;
   forEachCoefficient(model, message, [](double from, double& to) { to = from; });
-  if (model.depth_distortion_ratio != rgbd::SensorNoiseModel::Distortion{})
-    message.depth_distortion_ratio.assign(model.depth_distortion_ratio.begin(), model.depth_distortion_ratio.end());
+  message.depth_distortion_ratio = toMessage(model.depth_distortion_ratio);
   return message;
 }
 
@@ -47,6 +64,7 @@ object_modelling::SensorCalibration toMessage(const rgbd::SensorCalibration& cal
   message.principal_shift_px = { correction.principal_shift_px.x(), correction.principal_shift_px.y() };
   message.depth_ratio = correction.depth_ratio;
   message.depth_offset_m = correction.depth_offset_m;
+  message.depth_distortion_ratio = toMessage(correction.depth_distortion_ratio);
   return message;
 }
 
@@ -54,12 +72,7 @@ rgbd::SensorNoiseModel fromMessage(const object_modelling::SensorNoiseModel& mes
 {
   rgbd::SensorNoiseModel model;
   forEachCoefficient(model, message, [](double& to, double from) { to = from; });
-  const std::vector<double>& distortion = message.depth_distortion_ratio;
-  if (!distortion.empty() && distortion.size() != model.depth_distortion_ratio.size())
-    throw base::Error(base::StatusCode::INVALID_ARGUMENT,
-                      "noise_model: depth_distortion_ratio has " + std::to_string(distortion.size()) +
-                          " knots; it must have " + std::to_string(model.depth_distortion_ratio.size()) + " or none");
-  std::copy(distortion.begin(), distortion.end(), model.depth_distortion_ratio.begin());
+  model.depth_distortion_ratio = distortionFrom(message.depth_distortion_ratio, "noise_model");
   return base::checked(model);
 }
 
@@ -70,6 +83,7 @@ rgbd::SensorCalibration fromMessage(const object_modelling::SensorCalibration& m
   correction.principal_shift_px = { message.principal_shift_px[0], message.principal_shift_px[1] };
   correction.depth_ratio = message.depth_ratio;
   correction.depth_offset_m = message.depth_offset_m;
+  correction.depth_distortion_ratio = distortionFrom(message.depth_distortion_ratio, "calibration");
   if (!(correction.focal_ratio.minCoeff() > 0 && correction.depth_ratio > 0))
     throw base::Error(base::StatusCode::INVALID_ARGUMENT,
                       "calibration: focal_ratio and depth_ratio must be positive; 1 where nothing is known");

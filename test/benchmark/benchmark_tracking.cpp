@@ -143,7 +143,7 @@ int main(int argc, char** argv)
       ->check(CLI::PositiveNumber);
   app.add_option("--skip", arguments.run.skip, "Leave out the first N frames")->check(CLI::NonNegativeNumber);
   app.add_option("--seed", arguments.run.seed, "Of the tracker's random choices");
-  app.add_option("--noise-model", arguments.noise_model, "YAML of the sensor, as calibrate_color_offset writes it")
+  app.add_option("--noise-model", arguments.noise_model, "YAML of the sensor, as calibrate_camera writes it")
       ->check(CLI::ExistingFile);
   app.add_option("--repeat", arguments.repeat, "Runs; times are the medians of theirs")->check(CLI::PositiveNumber);
   app.add_option("--out", arguments.out, "Folder for trajectories")->check(CLI::ExistingDirectory);

@@ -73,7 +73,8 @@ std::optional<rgbd::RawFrame> SyntheticWallSource::next()
       // Measured z such that measured - bias(measured) - distortion is the truth.
       const double truth_m = z_m;
       for (int i = 0; i < 5; ++i)
-        z_m = truth_m + sensor.depthBias_m(z_m) + sensor.distortionAt_ratio(u, v, 640, 480) * z_m;
+        z_m = truth_m + sensor.depthBias_m(z_m) +
+              rgbd::DistortionGrid::ratioAt(sensor.depth_distortion_ratio, u, v, 640, 480) * z_m;
       z_m += gaussian(random_) * sensor.axialSigma_m(truth_m, std::min(theta_rad, 1.45));
       if (uniform(random_) < wall_.outlier_ratio)
         z_m += uniform(random_) - 0.5;

@@ -69,9 +69,9 @@ TEST(NoiseCalibration, RecoversTheSensor)
 TEST(NoiseCalibration, TellsDistortionFromNoise)
 {
   SyntheticWall wall = roughSensor();
-  for (int row = 0; row < rgbd::SensorNoiseModel::DISTORTION_ROWS; ++row)
-    for (int column = 0; column < rgbd::SensorNoiseModel::DISTORTION_COLUMNS; ++column)
-      wall.sensor.depth_distortion_ratio[row * rgbd::SensorNoiseModel::DISTORTION_COLUMNS + column] =
+  for (int row = 0; row < rgbd::DistortionGrid::ROWS; ++row)
+    for (int column = 0; column < rgbd::DistortionGrid::COLUMNS; ++column)
+      wall.sensor.depth_distortion_ratio[row * rgbd::DistortionGrid::COLUMNS + column] =
           0.004 * std::sin(1.3 * column) * std::cos(1.1 * row);
   const NoiseCalibration result = calibrate(wall);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
@@ -84,8 +84,9 @@ TEST(NoiseCalibration, TellsDistortionFromNoise)
   for (double v = 60; v < 420; v += 20)
     for (double u = 80; u < 560; u += 20)
     {
-      const double truth = wall.sensor.distortionAt_ratio(u, v, 640, 480);
-      difference += std::pow(result.model.distortionAt_ratio(u, v, 640, 480) - truth, 2);
+      const double truth = rgbd::DistortionGrid::ratioAt(wall.sensor.depth_distortion_ratio, u, v, 640, 480);
+      difference +=
+          std::pow(rgbd::DistortionGrid::ratioAt(result.model.depth_distortion_ratio, u, v, 640, 480) - truth, 2);
       size += truth * truth;
     }
   EXPECT_LT(difference, 0.25 * size);

@@ -26,9 +26,9 @@ class UsageTest(unittest.TestCase):
 
     def test_help_names_every_command(self):
         text = run("--help").stdout
-        for word in ("track", "model", "align", "calibrate_noise", "calibrate_color_offset", "info", "compare", "report", "Exit codes"):
+        for word in ("track", "model", "align", "calibrate_noise", "calibrate_camera", "info", "compare", "report", "Exit codes"):
             self.assertIn(word, text)
-        for command in ("track", "model", "align", "calibrate_noise", "calibrate_color_offset", "info", "compare", "report"):
+        for command in ("track", "model", "align", "calibrate_noise", "calibrate_camera", "info", "compare", "report"):
             finished = run(command, "--help")
             self.assertEqual(finished.returncode, 0)
             self.assertGreater(len(finished.stdout.splitlines()), 5)

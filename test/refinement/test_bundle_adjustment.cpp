@@ -80,7 +80,12 @@ std::vector<rgbd::Keyframe> mismeasured(std::vector<rgbd::Keyframe> keyframes, c
     keyframe.frame.camera.cx -= sensor.principal_shift_px.x();
     keyframe.frame.camera.cy -= sensor.principal_shift_px.y();
     for (rgbd::Observation& observation : keyframe.observations)
-      observation.depth_m = static_cast<float>(observation.depth_m - sensor.depth_offset_m);
+    {
+      const double distortion =
+          rgbd::DistortionGrid::ratioAt(sensor.depth_distortion_ratio, observation.pixel.x(), observation.pixel.y(),
+                                        keyframe.frame.camera.width, keyframe.frame.camera.height);
+      observation.depth_m = static_cast<float>((observation.depth_m - sensor.depth_offset_m) / (1 - distortion));
+    }
   }
   return keyframes;
 }
@@ -118,6 +123,45 @@ TEST(BundleAdjustment, findsWhatTheSensorIsOffBy)
   const PoseError with = largestError(result.T_session_camera, truth);
   const PoseError without = largestError(adjust(given).T_session_camera, truth);
   EXPECT_LT(with.translation_m, 0.5 * without.translation_m);
+}
+
+/// Knots that the landmarks of the synthetic bundle lie between, without their mean: that is the ratio of depth.
+Eigen::VectorXd middleOf(const rgbd::DistortionGrid::Ratios& ratios)
+{
+  std::vector<double> middle;
+  for (int row = 2; row <= 4; ++row)
+    for (int column = 3; column <= 5; ++column)
+      middle.push_back(ratios[row * rgbd::DistortionGrid::COLUMNS + column]);
+  const Eigen::Map<const Eigen::VectorXd> values(middle.data(), static_cast<Eigen::Index>(middle.size()));
+  return values.array() - values.mean();
+}
+
+TEST(BundleAdjustment, findsByWhatDepthIsDistorted)
+{
+  SyntheticBundleOptions scene;
+  scene.pixel_sigma_px = 0.3;
+  scene.depth_sigma_scale = 1;
+  scene.camera_count = 24;
+  scene.landmark_count = 2000;
+  const std::vector<rgbd::Keyframe> truth = observedLandmarks(scene);
+  BundleAdjustmentOptions options = withoutLinks();
+  options.calibrate_depth_distortion = true;
+  rgbd::SensorCorrection sensor;
+  for (int i = 0; i < rgbd::DistortionGrid::KNOTS; ++i)
+    sensor.depth_distortion_ratio[i] = 0.002 * std::sin(1.7 * i);
+  const BundleAdjustmentResult result = adjust(mismeasured(truth, sensor), options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  const Eigen::VectorXd expected = middleOf(sensor.depth_distortion_ratio);
+  const Eigen::VectorXd error = middleOf(result.sensor.depth_distortion_ratio) - expected;
+  EXPECT_LT(error.norm(), 0.4 * expected.norm());
+  EXPECT_GT(result.sensor.depth_distortion_sigma_ratio.front(), 0.001);  // a corner that nothing is seen in
+  EXPECT_LT(result.sensor.depth_distortion_sigma_ratio[3 * rgbd::DistortionGrid::COLUMNS + 4], 0.0005);
+  double mean = 0;
+  for (const double ratio : result.sensor.depth_distortion_ratio)
+    mean += ratio / rgbd::DistortionGrid::KNOTS;
+  EXPECT_NEAR(mean, 0, 1e-5);
+  const BundleAdjustmentResult undistorted = adjust(truth, options);
+  EXPECT_LT(middleOf(undistorted.sensor.depth_distortion_ratio).norm(), 0.3 * expected.norm());
 }
 
 TEST(BundleAdjustment, saysThatNothingTellsTheRatioOfDepth)

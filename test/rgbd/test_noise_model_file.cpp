@@ -88,14 +88,16 @@ TEST(CalibrationText, RoundTripIsExact)
   calibration.correction.principal_shift_px = { -2.5, 0.1 };
   calibration.correction.depth_ratio = 0.99;
   calibration.correction.depth_offset_m = -0.0021;
+  calibration.correction.depth_distortion_ratio[17] = 1e-3 / 3;
   EXPECT_TRUE(calibrationFromText(calibrationText(calibration), "test") == calibration);
   EXPECT_TRUE(calibrationFromText("{}", "test") == SensorCalibration());
 }
 
 TEST(CalibrationText, RefusesDamage)
 {
-  for (const char* text : { "", "color_offset_px: 1", "color_offset_px: [.nan, 0]", "gain: 2", "noise_model: 3",
-                            "correction: 1", "correction: {depth_ratio: 1}", "{" })
+  for (const char* text :
+       { "", "color_offset_px: 1", "color_offset_px: [.nan, 0]", "gain: 2", "noise_model: 3", "correction: 1",
+         "correction: {depth_ratio: 1}", "noise_model: {depth_distortion_ratio: [[0, .nan]]}", "{" })
     EXPECT_THROW(calibrationFromText(text, "test"), base::Error) << text;
 }
 

@@ -64,14 +64,19 @@ TEST(DepthDistortion, IsBilinearBetweenItsKnots)
 {
   SensorNoiseModel model;
   EXPECT_FALSE(model.correctsDepth());
-  model.depth_distortion_ratio[1] = 0.008;                                     // top row, second column
-  model.depth_distortion_ratio[SensorNoiseModel::DISTORTION_COLUMNS] = 0.004;  // second row, first column
+  model.depth_distortion_ratio[1] = 0.008;                        // top row, second column
+  model.depth_distortion_ratio[DistortionGrid::COLUMNS] = 0.004;  // second row, first column
   EXPECT_TRUE(model.correctsDepth());
-  EXPECT_NEAR(model.distortionAt_ratio(80, 0, 641, 481), 0.008, 1e-12);
-  EXPECT_NEAR(model.distortionAt_ratio(0, 80, 641, 481), 0.004, 1e-12);
-  EXPECT_NEAR(model.distortionAt_ratio(40, 40, 641, 481), 0.003, 1e-12);
-  EXPECT_EQ(model.distortionAt_ratio(640, 480, 641, 481), 0);
+  EXPECT_NEAR(DistortionGrid::ratioAt(model.depth_distortion_ratio, 80, 0, 641, 481), 0.008, 1e-12);
+  EXPECT_NEAR(DistortionGrid::ratioAt(model.depth_distortion_ratio, 0, 80, 641, 481), 0.004, 1e-12);
+  EXPECT_NEAR(DistortionGrid::ratioAt(model.depth_distortion_ratio, 40, 40, 641, 481), 0.003, 1e-12);
+  EXPECT_EQ(DistortionGrid::ratioAt(model.depth_distortion_ratio, 640, 480, 641, 481), 0);
   EXPECT_NE(model, SensorNoiseModel());
+  const cv::Mat image = DistortionGrid::image(model.depth_distortion_ratio, { 641, 481 });
+  for (const cv::Point& pixel : { cv::Point(80, 0), cv::Point(33, 71), cv::Point(100, 20), cv::Point(640, 480) })
+    EXPECT_NEAR(image.at<float>(pixel),
+                DistortionGrid::ratioAt(model.depth_distortion_ratio, pixel.x, pixel.y, 641, 481), 1e-9);
+  EXPECT_EQ(DistortionGrid::ratioAt(model.depth_distortion_ratio, 0, 0, 1, 1), 0);
 }
 
 TEST(NoiseModel, NamesEveryBrokenBound)

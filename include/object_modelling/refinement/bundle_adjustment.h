@@ -25,8 +25,12 @@ struct BundleAdjustmentOptions
   bool calibrate_intrinsics = false;
   bool calibrate_depth_ratio = false;
   bool calibrate_depth_offset = false;
-  bool object_only = false;  ///< only observations on the object mask (turntable, object in motion)
-  bool calibratesSensor() const { return calibrate_intrinsics || calibrate_depth_ratio || calibrate_depth_offset; }
+  bool calibrate_depth_distortion = false;  ///< wide scenes with print tell it; a plain one bends with it
+  bool object_only = false;                 ///< only observations on the object mask (turntable, object in motion)
+  bool calibratesSensor() const
+  {
+    return calibrate_intrinsics || calibrate_depth_ratio || calibrate_depth_offset || calibrate_depth_distortion;
+  }
   int threads = 1;  ///< more than one: results are no longer equal bit for bit
   std::uint64_t seed = 1;
   std::vector<std::string> violations() const;

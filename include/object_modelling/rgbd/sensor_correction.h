@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "object_modelling/rgbd/distortion_grid.h"
+
 namespace object_modelling::rgbd
 {
 /// What a sensor is off by, for all its frames alike. The sigmas are 0 where nothing was estimated; as large as the
@@ -12,10 +14,13 @@ struct SensorCorrection
   Eigen::Vector2d principal_shift_px{ 0, 0 };  ///< true cx, cy minus those given
   double depth_ratio = 1;                      ///< true depth = depth_ratio * measured + depth_offset_m
   double depth_offset_m = 0;
+  /// Measured depth times this is taken off the depth first. 0 on the mean of all knots: the rest is depth_ratio.
+  DistortionGrid::Ratios depth_distortion_ratio{};
   Eigen::Vector2d focal_ratio_sigma{ 0, 0 };
   Eigen::Vector2d principal_shift_sigma_px{ 0, 0 };
   double depth_ratio_sigma = 0;
   double depth_offset_sigma_m = 0;
+  DistortionGrid::Ratios depth_distortion_sigma_ratio{};
 
   bool isIdentity() const;
   /// Of a sensor whose frames, corrected by this, turned out to be off by `rest` too; sigmas are those of `rest`.

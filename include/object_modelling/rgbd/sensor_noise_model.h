@@ -1,11 +1,11 @@
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "object_modelling/rgbd/distortion_grid.h"
 #include "object_modelling/rgbd/sensor_correction.h"
 
 namespace object_modelling::rgbd
@@ -24,10 +24,6 @@ namespace object_modelling::rgbd
 /// frame's depth and colour are corrected already.
 struct SensorNoiseModel
 {
-  static constexpr int DISTORTION_COLUMNS = 9;
-  static constexpr int DISTORTION_ROWS = 7;
-  using Distortion = std::array<double, DISTORTION_COLUMNS * DISTORTION_ROWS>;
-
   double axial_constant_m = 0.0012;
   double axial_quadratic_per_m = 0.0019;
   double axial_vertex_m = 0.4;
@@ -39,9 +35,7 @@ struct SensorNoiseModel
   double depth_bias_linear_ratio = 0;
   double depth_bias_quadratic_per_m = 0;
   double color_offset_x_px = 0, color_offset_y_px = 0;
-  /// Share of the depth, at knots that divide the image evenly from its first to its last pixel, row by row; bilinear
-  /// between them.
-  Distortion depth_distortion_ratio{};
+  DistortionGrid::Ratios depth_distortion_ratio{};
 
   double axialSigma_m(double z_m, double theta_rad) const;
   double lateralSigma_px(double theta_rad) const;
@@ -52,8 +46,6 @@ struct SensorNoiseModel
   double depthBias_m(double z_m) const;
   bool correctsDepth() const;
   bool shiftsColor() const { return color_offset_x_px != 0 || color_offset_y_px != 0; }
-  /// The knots' value at a pixel of an image of the given size.
-  double distortionAt_ratio(double u_px, double v_px, int width_px, int height_px) const;
 
   bool operator==(const SensorNoiseModel& other) const;
   bool operator!=(const SensorNoiseModel& other) const { return !(*this == other); }

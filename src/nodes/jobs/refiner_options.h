@@ -39,6 +39,7 @@ void read(Reader& reader, RefinerOptions* options)
   reader.read("bundle_adjustment/calibrate_intrinsics", adjustment.calibrate_intrinsics);
   reader.read("bundle_adjustment/calibrate_depth_ratio", adjustment.calibrate_depth_ratio);
   reader.read("bundle_adjustment/calibrate_depth_offset", adjustment.calibrate_depth_offset);
+  reader.read("bundle_adjustment/calibrate_depth_distortion", adjustment.calibrate_depth_distortion);
   reader.read("bundle_adjustment/object_only", adjustment.object_only);
   reader.read("bundle_adjustment/threads", adjustment.threads);
   reader.read("bundle_adjustment/seed", adjustment.seed);
