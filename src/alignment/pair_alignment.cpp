@@ -7,12 +7,22 @@
 #include "pair_decision.h"
 #include "pair_refinement.h"
 #include "proposals.h"
+#include "support_contact.h"
 
 namespace object_modelling::alignment
 {
 namespace
 {
-constexpr std::size_t MEASURED_CANDIDATES = 400;
+/// What is left at most, and at least, after each sieve; between them stay those that score much as the best does: of
+/// something round that is all, and colours have yet to tell.
+struct Sieve
+{
+  std::size_t least, most;
+  double margin;  ///< below the best score
+};
+constexpr Sieve TO_MEASURE{ 400, 2000, 0.1 };  // of the overlap
+constexpr double REFINED_MARGIN = 2;           // of the log odds
+constexpr int MOST_REFINED_FACTOR = 4;
 constexpr float COARSE_GATE_RATIO = 0.2F;      // of the part's radius
 constexpr float MAX_COARSE_GAP_RATIO = 0.12F;  // of the part's radius off the support plane
 constexpr float SAME_ROTATION_RAD = 0.05F, SAME_POSITION_RATIO = 0.04F;
@@ -33,16 +43,17 @@ bool same(const Eigen::Isometry3f& x, const Eigen::Isometry3f& y, const Part& b,
          (off * b.centre - b.centre).norm() < ratio * b.radius_m;
 }
 
-/// The best of each group of nearly equal poses, best first, at most `count`.
+/// The best of each group of nearly equal poses, best first.
 std::vector<Candidate> distinctBest(std::vector<Candidate> candidates, const Part& b, float rotation_rad, float ratio,
-                                    std::size_t count)
+                                    const Sieve& sieve)
 {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& x, const Candidate& y) { return x.score > y.score; });
   std::vector<Candidate> kept;
   for (const Candidate& candidate : candidates)
   {
-    if (kept.size() >= count)
+    const bool alike = kept.empty() || candidate.score > kept.front().score - sieve.margin;
+    if (kept.size() >= (alike ? sieve.most : sieve.least))
       break;
     if (std::none_of(kept.begin(), kept.end(),
                      [&](const Candidate& other)
@@ -98,7 +109,8 @@ PairAlignment decided(const Part& a, const Part& b, const PairAlignmentOptions& 
 {
   control.checkCancelled();
   refine(a, b, true, options.threads, &candidates);
-  candidates = distinctBest(candidates, b, DISTINCT_ROTATION_RAD, DISTINCT_POSITION_RATIO, candidates.size());
+  candidates = distinctBest(candidates, b, DISTINCT_ROTATION_RAD, DISTINCT_POSITION_RATIO,
+                            { candidates.size(), candidates.size(), 0 });
   control.checkCancelled();
   PairAlignment result;
   for (const Candidate& candidate : candidates)
@@ -148,11 +160,12 @@ PairAlignment alignParts(const Part& a, const Part& b, const PairAlignmentOption
 {
   control.checkCancelled();
   std::vector<Candidate> candidates =
-      distinctBest(coarse(a, b, options), b, SAME_ROTATION_RAD, SAME_POSITION_RATIO, MEASURED_CANDIDATES);
+      distinctBest(coarse(a, b, options), b, SAME_ROTATION_RAD, SAME_POSITION_RATIO, TO_MEASURE);
   control.checkCancelled();
   refine(a, b, false, options.threads, &candidates);
+  const auto refined = static_cast<std::size_t>(options.refined_candidates);
   candidates = distinctBest(candidates, b, SAME_ROTATION_RAD, SAME_POSITION_RATIO,
-                            static_cast<std::size_t>(options.refined_candidates));
+                            { refined, MOST_REFINED_FACTOR * refined, REFINED_MARGIN });
   return decided(a, b, options, std::move(candidates), control);
 }
 

@@ -5,14 +5,19 @@
 
 #include <Eigen/Dense>
 
+#include "support_contact.h"
+
 namespace object_modelling::alignment
 {
 namespace
 {
 constexpr float SAME_SIDE_COSINE = 0.5F;
 constexpr float FREE_DIRECTION_WEIGHT = 1e-5F;  // of the mean information: what nothing holds, stays
-constexpr float MIN_COLOR_SIGMA = 0.08F;        // of what print differs by between sessions: light, focus
-constexpr float SURFACE_SIGMA_M = 0.0003F;      // of fused points; next to it colours only say what shape leaves open
+constexpr float CONTACT_WEIGHT =
+    0.01F;  // of the mean information: the other's support plane tells what surfaces do not
+constexpr float MAX_CONTACT_RATIO = 0.12F;  // of the part's radius; what is farther off does not stand there
+constexpr float MIN_COLOR_SIGMA = 0.08F;    // of what print differs by between sessions: light, focus
+constexpr float SURFACE_SIGMA_M = 0.0003F;  // of fused points; next to it colours only say what shape leaves open
 constexpr float MIN_SCALE_M = 0.001F;
 constexpr int MIN_PAIRS = 20;
 
@@ -82,6 +87,27 @@ void addPairs(const Part& fixed, const Part& moving, const Eigen::Isometry3f& T_
     }
   }
 }
+
+/// Each part stands on the other's support plane: a can that was turned over is held along its axis by nothing else.
+void addContact(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_b, Equations* equations)
+{
+  const float weight = CONTACT_WEIGHT * equations->A.trace() / 6, max_gap_m = MAX_CONTACT_RATIO * a.radius_m;
+  const auto add = [&](const Eigen::Vector3f& p_a, const Eigen::Vector3f& direction, float height_m)
+  {
+    if (std::abs(height_m) < max_gap_m)
+      equations->add((p_a - a.centre) / a.radius_m, direction, height_m, weight);
+  };
+  if (a.model.support_plane)
+  {
+    const LowestPoint lowest = lowestPoint(b, T_a_b, *a.model.support_plane);
+    add(T_a_b * lowest.point, a.model.support_plane->normal.cast<float>(), lowest.height_m);
+  }
+  if (b.model.support_plane)
+  {
+    const LowestPoint lowest = lowestPoint(a, T_a_b.inverse(), *b.model.support_plane);
+    add(lowest.point, -(T_a_b.linear() * b.model.support_plane->normal.cast<float>()), lowest.height_m);
+  }
+}
 }  // namespace
 
 Eigen::Isometry3f alignSurfaces(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_b,
@@ -99,6 +125,8 @@ Eigen::Isometry3f alignSurfaces(const Part& a, const Part& b, const Eigen::Isome
     if (equations.pairs < MIN_PAIRS)
       return T;
     color_sigma = std::max(MIN_COLOR_SIGMA, static_cast<float>(std::sqrt(equations.color_squares / equations.pairs)));
+    if (!options.coarse)
+      addContact(a, b, T, &equations);
     equations.A.diagonal().array() += FREE_DIRECTION_WEIGHT * equations.A.trace() / 6;
     const Eigen::Matrix<float, 6, 1> step = equations.A.ldlt().solve(equations.b);
     if (!step.allFinite())

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support_contact.h"
+
 namespace object_modelling::alignment
 {
 namespace
@@ -11,7 +13,6 @@ constexpr float SAME_SIDE_COSINE = 0.7F;
 constexpr double SAME_SURFACE_SPACINGS = 1.7;
 constexpr float SPACE_SIGMAS = 3;
 constexpr float SPACE_MARGIN_M = 0.004F;  // registration and calibration, beyond noise
-constexpr double LOWEST_SHARE = 0.01;     // of the points: noise reaches lower
 
 /// Sums for the correlation of the colours where the parts overlap.
 struct ColorSums
@@ -105,30 +106,7 @@ Meeting meet(const Part& fixed, const Part& moving, const Eigen::Isometry3f& T_f
   return meeting;
 }
 
-/// Height above a plane below which only noise is.
-double lowest_m(const Part& part, const Eigen::Isometry3f& T_plane_part, const geometry::Plane& plane)
-{
-  const Eigen::Vector3f n = T_plane_part.linear().transpose() * plane.normal.cast<float>();
-  const auto offset = static_cast<float>(plane.signedDistance_m(T_plane_part.translation().cast<double>()));
-  std::vector<float> heights;
-  heights.reserve(part.many.size());
-  for (const int i : part.many)
-    heights.push_back(n.dot(part.model.points[i]) + offset);
-  const auto at = heights.begin() + static_cast<std::ptrdiff_t>(LOWEST_SHARE * static_cast<double>(heights.size()));
-  std::nth_element(heights.begin(), at, heights.end());
-  return *at;
-}
 }  // namespace
-
-double contactGap_m(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_b)
-{
-  double gap_m = 0;
-  if (a.model.support_plane)
-    gap_m = std::abs(lowest_m(b, T_a_b, *a.model.support_plane));
-  if (b.model.support_plane)
-    gap_m = std::max(gap_m, std::abs(lowest_m(a, T_a_b.inverse(), *b.model.support_plane)));
-  return gap_m;
-}
 
 double coarseOverlap(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_b)
 {

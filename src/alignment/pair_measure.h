@@ -7,10 +7,6 @@ namespace object_modelling::alignment
 /// Measures how part b, placed by T_a_b, fits part a: over all directions both ways, with `few` points each or many.
 PairQuality measurePair(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_b, bool many);
 
-/// How far (m) the lowest points of either part are off the other's support plane, the larger of both; 0 without
-/// planes. Quick: what cannot stand there is sorted out by it.
-double contactGap_m(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_b);
-
 /// Share of the points of b that lie on a.
 double coarseOverlap(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_b);
 

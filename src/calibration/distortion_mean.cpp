@@ -33,7 +33,7 @@ private:
 DistortionMean meanDistortion(const std::vector<DistortionEstimate>& estimates)
 {
   DistortionMean mean;
-  WeightedSum size, disagreement;
+  WeightedSum size, disagreement, everywhere;
   for (int knot = 0; knot < Grid::KNOTS; ++knot)
   {
     WeightedSum all;
@@ -42,6 +42,7 @@ DistortionMean meanDistortion(const std::vector<DistortionEstimate>& estimates)
       const double ratio = estimates[i].ratio[knot], weight = weightOf(estimates[i], knot);
       all.add(ratio, weight);
       size.add(ratio * ratio, weight);
+      everywhere.add(ratio, weight);
       WeightedSum others;
       for (std::size_t j = 0; j < estimates.size(); ++j)
         if (j != i)
@@ -51,6 +52,8 @@ DistortionMean meanDistortion(const std::vector<DistortionEstimate>& estimates)
     }
     mean.ratio[knot] = all.mean();
   }
+  for (double& ratio : mean.ratio)
+    ratio -= everywhere.mean();
   mean.size_ratio = std::sqrt(size.mean());
   mean.disagreement_ratio = std::sqrt(disagreement.mean());
   mean.agrees = estimates.size() > 1 && mean.disagreement_ratio < MAX_DISAGREEMENT * mean.size_ratio;

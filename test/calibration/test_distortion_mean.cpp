@@ -66,14 +66,18 @@ TEST(DistortionMean, oneRecordingAloneIsNotTaken)
 TEST(DistortionMean, theMoreCertainCountsMore)
 {
   DistortionEstimate rough, exact, unknown;
-  rough.ratio.fill(0.003);
+  rough.ratio[7] = 0.003;
   rough.sigma_ratio.fill(2e-4);
-  exact.ratio.fill(0.001);
+  exact.ratio[7] = 0.001;
   exact.sigma_ratio.fill(1e-4);
   unknown.ratio.fill(1);
   unknown.sigma_ratio.fill(std::numeric_limits<double>::quiet_NaN());
-  EXPECT_NEAR(meanDistortion({ rough, exact, unknown }).ratio[7], 0.0014, 1e-9);
+  const DistortionMean mean = meanDistortion({ rough, exact, unknown });
+  EXPECT_NEAR(mean.ratio[7], 0.0014 * (Grid::KNOTS - 1) / Grid::KNOTS, 1e-9);
+  EXPECT_NEAR(mean.ratio[8], -0.0014 / Grid::KNOTS, 1e-9);
   EXPECT_EQ(meanDistortion({ unknown }).ratio[7], 0);
+  exact.ratio.fill(0.001);
+  EXPECT_NEAR(meanDistortion({ exact, exact }).ratio[7], 0, 1e-12);  // that is the scale
 }
 }  // namespace
 }  // namespace object_modelling::calibration

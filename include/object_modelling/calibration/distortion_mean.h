@@ -23,7 +23,8 @@ struct DistortionMean
   bool agrees = false;
 };
 
-/// Mean of the estimates, each knot weighted by its inverse variance.
+/// Mean of the estimates, each knot weighted by its inverse variance. By the same weights it is 0 on the mean of all
+/// knots: nothing tells the scale of everything, which stays as it was.
 DistortionMean meanDistortion(const std::vector<DistortionEstimate>& estimates);
 
 }  // namespace object_modelling::calibration

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "surface_pair.h"
+
+namespace object_modelling::alignment
+{
+struct LowestPoint
+{
+  Eigen::Vector3f point;  ///< in the frame of the part
+  float height_m = 0;     ///< above the plane; below it is only noise
+};
+LowestPoint lowestPoint(const Part& part, const Eigen::Isometry3f& T_plane_part, const geometry::Plane& plane);
+
+/// How far (m) the lowest points of either part are off the other's support plane, the larger of both; 0 without
+/// planes. Quick: what cannot stand there is sorted out by it.
+double contactGap_m(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_b);
+
+}  // namespace object_modelling::alignment
