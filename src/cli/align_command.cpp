@@ -54,10 +54,10 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
   options.use_known = !arguments.anew;
   decide(arguments, *store);
   const alignment::AlignmentResult aligned = pipeline::alignSessions(*store, ids, options, control);
-  if (!aligned.status.ok())
-    throw base::Error(aligned.status.code, aligned.status.message);
   CommandOutput output;
-  output.text = toText(aligned) + (aligned.status.message.empty() ? "" : "note      " + aligned.status.message + "\n");
+  output.status = aligned.status;
+  const bool note = aligned.status.ok() && !aligned.status.message.empty();
+  output.text = toText(aligned) + (note ? "note      " + aligned.status.message + "\n" : "");
   output.json = toJson(aligned);
   output.json["object_id"] = arguments.object_id;
   return output;

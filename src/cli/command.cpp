@@ -22,10 +22,10 @@ void addTrackingOptions(CLI::App& command, RecordArguments* arguments)
       .add_option("--seed", arguments->seed,
                   "Seed of all random choices: the same recording and seed give the same result")
       ->capture_default_str();
-  command.add_option(
-      "--noise-model", arguments->noise_model,
-      "YAML of the sensor's noise, depth bias, distortion and colour offset, from calibrate_noise and calibrate_camera; "
-      "without it a Kinect's");
+  command.add_option("--noise-model", arguments->noise_model,
+                     "YAML of the sensor's noise, depth bias, distortion and colour offset, from calibrate_noise and "
+                     "calibrate_camera; "
+                     "without it a Kinect's");
 }
 
 void addRecordOptions(CLI::App& command, RecordArguments* arguments)

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "object_modelling/base/job_control.h"
+#include "object_modelling/base/status.h"
 #include "object_modelling/pipeline/record_session.h"
 #include "object_modelling/pipeline/session_refinement.h"
 
@@ -18,6 +19,7 @@ struct CommandOutput
 {
   std::string text;
   nlohmann::json json;
+  base::Status status{};  ///< of a failure whose figures are worth printing all the same
 };
 
 /// A parsed subcommand, ready to run. Throws base::Error.

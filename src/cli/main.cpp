@@ -60,7 +60,10 @@ int execute(const cli::Command& command, bool json, bool quiet)
   {
     const cli::CommandOutput output = runQuietly(command, control);
     std::cout << (json ? output.json.dump(2) + "\n" : output.text) << std::flush;
-    return 0;
+    if (output.status.ok())
+      return 0;
+    status = output.status;
+    json = false;  // has been said
   }
   catch (const base::Error& error)
   {

@@ -1,5 +1,6 @@
 """Several sessions of one object in a store: one more is aligned with what is there, and a person's word stands."""
 
+import json
 import os
 import sqlite3
 import tempfile
@@ -56,8 +57,12 @@ class SessionsTest(unittest.TestCase):
         refused = run("align", "bottle", "--store", self.store, "--refuse", "walk_1", "walk_2")
         self.assertNotEqual(refused.returncode, 0)
         self.assertIn("refused by a person", refused.stderr)
-        refused = run("align", "bottle", "--store", self.store, "--anew")
+        refused = run("align", "bottle", "--store", self.store, "--anew", "--json", "--quiet")
+        self.assertNotEqual(refused.returncode, 0)
         self.assertIn("refused by a person", refused.stderr)
+        answer = json.loads(refused.stdout)  # with every edge all the same
+        self.assertIn("could not be aligned", answer["status"]["message"])
+        self.assertEqual([edge["decision"] for edge in answer["edges"]], ["refused"])
         accepted = self.align("--accept", "walk_2", "walk_1")
         self.assertEqual(accepted["edges"][0]["decision"], "accepted")
         self.assertEqual(self.align("--forget", "walk_1", "walk_2")["edges"][0]["decision"], "automatic")
