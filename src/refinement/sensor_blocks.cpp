@@ -127,10 +127,10 @@ void SensorBlocks::finish(const BundleSolverOptions& options, ceres::Problem* pr
   };
   // Where no depth has a slope nothing but the prior tells the offset of the colour images.
   finish_block(options.calibrate_color_offset, Eigen::Vector2d(COLOR_OFFSET_SIGMA_PX, COLOR_OFFSET_SIGMA_PX),
-              color_offset_px.data());
+               color_offset_px.data());
   finish_block(options.calibrate_intrinsics,
-              Eigen::Vector4d(FOCAL_SIGMA_RATIO, FOCAL_SIGMA_RATIO, PRINCIPAL_SIGMA_PX, PRINCIPAL_SIGMA_PX),
-              intrinsics.data());
+               Eigen::Vector4d(FOCAL_SIGMA_RATIO, FOCAL_SIGMA_RATIO, PRINCIPAL_SIGMA_PX, PRINCIPAL_SIGMA_PX),
+               intrinsics.data());
   finish_block(options.calibrate_depth_ratio, Vector1d(DEPTH_SIGMA_RATIO), &depth_growth);
   if (options.calibrate_depth_distortion)
     addDistortionPriors(&distortion_ratio, problem, ordering);
