@@ -102,6 +102,9 @@ void findDepthDistortion(const Arguments& arguments, rgbd::SensorNoiseModel* mod
   text << std::setprecision(2) << "distorted by " << 100 * mean.size_ratio << " % of depth (RMS); recordings differ by "
        << 100 * mean.disagreement_ratio << " %: " << (mean.agrees ? "taken off" : "not taken, they do not agree")
        << "\n";
+  if (!mean.agrees)
+    text << "note      record once round, 10 s or more, with print on the table in all of the view; give three or "
+            "more\n";
   if (mean.agrees)
     for (std::size_t i = 0; i < mean.ratio.size(); ++i)
       model->depth_distortion_ratio[i] += mean.ratio[i];

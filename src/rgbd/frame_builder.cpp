@@ -138,14 +138,17 @@ void FrameBuilder::takeBiasOff(cv::Mat* depth_m)
   const SensorNoiseModel& model = options_.noise_model;
   if (!model.correctsDepth())
     return;
-  if (distortion_ratio_.size() != depth_m->size())
-    distortion_ratio_ = DistortionGrid::image(model.depth_distortion_ratio, depth_m->size());
+  if (unbiased_share_.size() != depth_m->size())
+    unbiased_share_ =
+        1 - model.depth_bias_linear_ratio - DistortionGrid::image(model.depth_distortion_ratio, depth_m->size());
+  const auto constant_m = static_cast<float>(model.depth_bias_constant_m);
+  const auto quadratic_per_m = static_cast<float>(model.depth_bias_quadratic_per_m);
   for (int v = 0; v < depth_m->rows; ++v)
   {
     auto* row = depth_m->ptr<float>(v);
-    const auto* ratio = distortion_ratio_.ptr<float>(v);
+    const auto* share = unbiased_share_.ptr<float>(v);
     for (int u = 0; u < depth_m->cols; ++u)
-      row[u] -= static_cast<float>(model.depthBias_m(row[u])) + ratio[u] * row[u];
+      row[u] = row[u] * (share[u] - quadratic_per_m * row[u]) - constant_m;
   }
 }
 

@@ -76,7 +76,7 @@ DistortionGrid::Ratios distortionFrom(const YAML::Node& node, const std::string&
   }
   if (!fits)
     refuse(what, std::string(DISTORTION) + " must be " + std::to_string(DistortionGrid::ROWS) + " rows of " +
-                     std::to_string(DistortionGrid::COLUMNS) + " numbers");
+                     std::to_string(DistortionGrid::COLUMNS) + " finite numbers");
   return distortion;
 }
 

@@ -1,6 +1,7 @@
 #include "object_modelling/ros_bridge/noise_model_conversion.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "object_modelling/base/options.h"
 
@@ -40,6 +41,9 @@ rgbd::DistortionGrid::Ratios distortionFrom(const std::vector<double>& knots, co
     throw base::Error(base::StatusCode::INVALID_ARGUMENT, what + ": depth_distortion_ratio has " +
                                                               std::to_string(knots.size()) + " knots; it must have " +
                                                               std::to_string(ratios.size()) + " or none");
+  if (!std::all_of(knots.begin(), knots.end(), [](double knot) { return std::isfinite(knot); }))
+    throw base::Error(base::StatusCode::INVALID_ARGUMENT,
+                      what + ": depth_distortion_ratio has a knot that is not finite");
   std::copy(knots.begin(), knots.end(), ratios.begin());
   return ratios;
 }

@@ -32,7 +32,7 @@ geometry::TriangleMesh poissonSurface(const std::vector<Eigen::Vector3f>& points
   }
   // The octree is as large as makes its cells just as large as asked for: else objects of nearly the same size would be
   // meshed twice as finely, or not.
-  const double size_m = box.sizes().maxCoeff();
+  const double size_m = std::max<double>(box.sizes().maxCoeff(), cell_size_m);  // all points may be in one place
   const double cells = BOX_SCALE * size_m / cell_size_m;
   const int depth = std::clamp(static_cast<int>(std::ceil(std::log2(std::max(cells, 1.0)))), MIN_DEPTH, MAX_DEPTH);
   const double scale = std::max<double>(BOX_SCALE, cell_size_m * std::exp2(depth) / size_m);

@@ -56,6 +56,8 @@ void buildFrame(benchmark::State& state)
   rgbd::FrameBuilderOptions options;
   if (state.range(1) != 0)
     options.noise_model.color_offset_x_px = 0.3;
+  if (state.range(2) != 0)
+    options.noise_model.depth_distortion_ratio[3] = 0.001;
   rgbd::FrameBuilder builder(options);
   rgbd::RawFrame raw = rawFrame();
   if (state.range(0) != 0)
@@ -64,10 +66,11 @@ void buildFrame(benchmark::State& state)
     benchmark::DoNotOptimize(builder.build(raw));
 }
 BENCHMARK(buildFrame)
-    ->ArgNames({ "distorted", "color_offset" })
-    ->Args({ 0, 0 })
-    ->Args({ 0, 1 })
-    ->Args({ 1, 0 })
+    ->ArgNames({ "distorted", "color_offset", "depth_distortion" })
+    ->Args({ 0, 0, 0 })
+    ->Args({ 0, 1, 0 })
+    ->Args({ 0, 0, 1 })
+    ->Args({ 1, 0, 0 })
     ->Unit(benchmark::kMillisecond);
 
 void depthInMetres(benchmark::State& state)

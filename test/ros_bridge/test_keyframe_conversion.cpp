@@ -127,6 +127,7 @@ TEST(SessionConversion, RoundTrip)
 
   session.calibration.noise_model.axial_quadratic_per_m = 0.003;
   session.calibration.noise_model.depth_distortion_ratio[62] = 0.001;
+  session.calibration.correction.depth_distortion_ratio[5] = -0.002;
   session.calibration.color_offset_px = { 0.25, -0.5 };
   session.refinement_report = "refined";
   geometry::Plane plane;
@@ -159,6 +160,9 @@ TEST(SessionConversion, UnusablePartsAreRefused)
   EXPECT_THROW(fromMessage(message), base::Error);
   message = toMessage(keyframes::Session());
   message.calibration.noise_model.depth_distortion_ratio = { 1, 2 };
+  EXPECT_THROW(fromMessage(message), base::Error);
+  message = toMessage(keyframes::Session());
+  message.calibration.depth_distortion_ratio.assign(rgbd::DistortionGrid::KNOTS, NAN);
   EXPECT_THROW(fromMessage(message), base::Error);
 }
 

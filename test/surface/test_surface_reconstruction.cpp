@@ -231,6 +231,15 @@ TEST(SurfaceReconstruction, KeepsWithinTheBudgetOfTriangles)
   EXPECT_NE(reconstruct(sphere(), options).warning.find("20"), std::string::npos);
 }
 
+TEST(SurfaceReconstruction, PointsInOnePlaceDoNotHarm)
+{
+  fusion::FusedCloud cloud;
+  cloud.points.assign(200, Eigen::Vector3f(0.1f, 0.2f, 0.7f));
+  cloud.normals.assign(200, Eigen::Vector3f::UnitZ());
+  const SurfaceResult result = reconstruct(cloud);
+  EXPECT_EQ(result.status.ok(), !result.mesh.empty()) << result.status.message;
+}
+
 TEST(SurfaceReconstruction, TooFewPointsAreNoSurface)
 {
   fusion::FusedCloud few;

@@ -58,7 +58,8 @@ private:
   geometry::PinholeCamera mapped_camera_;  ///< camera of the maps; none yet if its width is 0
   cv::Mat color_map_, color_map_fraction_;
   cv::Mat nearest_map_;
-  cv::Mat distortion_ratio_;  ///< CV_32FC1, of the frames' size; empty until needed
+  /// What linear bias and distortion leave of depth: CV_32FC1, of the frames' size; empty until needed.
+  cv::Mat unbiased_share_;
 };
 
 }  // namespace object_modelling::rgbd
