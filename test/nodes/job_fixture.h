@@ -15,6 +15,7 @@
 #include <ros/ros.h>
 
 #include "object_modelling/ros_bridge/remote_session_store.h"
+#include "service_call.h"
 #include "support/handheld_trajectory.h"
 #include "support/synthetic_scene.h"
 
@@ -126,7 +127,7 @@ protected:
   {
     object_modelling::ListObjects service;
     EXPECT_TRUE(ros::service::waitForService(node + "/list_objects", ros::Duration(PATIENCE_S)));
-    EXPECT_TRUE(ros::service::call(node + "/list_objects", service));
+    EXPECT_TRUE(callService(node + "/list_objects", service));
     return service.response;
   }
 
@@ -135,7 +136,7 @@ protected:
   const typename Service::Response& called(const std::string& name, Service& service)
   {
     EXPECT_TRUE(ros::service::waitForService("session_aligner/" + name, ros::Duration(PATIENCE_S)));
-    EXPECT_TRUE(ros::service::call("session_aligner/" + name, service)) << name;
+    EXPECT_TRUE(callService("session_aligner/" + name, service)) << name;
     return service.response;
   }
 

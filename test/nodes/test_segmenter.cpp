@@ -15,6 +15,7 @@
 #include "object_modelling/ros_bridge/frame_publisher.h"
 #include "object_modelling/ros_bridge/image_conversion.h"
 #include "object_modelling/ros_bridge/keyframe_conversion.h"
+#include "service_call.h"
 #include "support/handheld_trajectory.h"
 #include "support/synthetic_scene.h"
 
@@ -62,7 +63,7 @@ protected:
   template <typename Service>
   int call(const std::string& name, Service& service)
   {
-    EXPECT_TRUE(ros::service::call("segmenter/" + name, service)) << name;
+    EXPECT_TRUE(callService("segmenter/" + name, service)) << name;
     message_ = service.response.status.message;
     return service.response.status.code;
   }
