@@ -24,6 +24,7 @@ struct Figure
 {
   const char* name;
   double PairQuality::*value;
+  bool required = true;  ///< older records lack what was added since: zero
 };
 const Figure FIGURES[] = { { "overlap_ratio", &PairQuality::overlap_ratio },
                            { "fsv_ratio", &PairQuality::fsv_ratio },
@@ -31,6 +32,7 @@ const Figure FIGURES[] = { { "overlap_ratio", &PairQuality::overlap_ratio },
                            { "contact_gap_m", &PairQuality::contact_gap_m },
                            { "color_agreement", &PairQuality::color_agreement },
                            { "texture", &PairQuality::texture },
+                           { "light_variance", &PairQuality::light_variance, false },
                            { "probability", &PairQuality::probability } };
 
 std::string pairText(const keyframes::AlignmentRecord& record)
@@ -82,7 +84,8 @@ PairCandidate candidateFrom(const YAML::Node& node)
   if (!(R * R.transpose()).isIdentity(MAX_ROTATION_ERROR) || R.determinant() < 0)
     throw base::Error(base::StatusCode::BAD_INPUT, "a_from_b is no rigid motion");
   for (const Figure& figure : FIGURES)
-    candidate.quality.*figure.value = finite(node[figure.name]);
+    if (figure.required || node[figure.name])
+      candidate.quality.*figure.value = finite(node[figure.name]);
   return candidate;
 }
 

@@ -44,8 +44,9 @@ std::string whyUnlikely(const PairQuality& quality, const PairAlignmentOptions& 
     return "overlap " + percent(quality.overlap_ratio) + " below " + percent(options.min_overlap_ratio) +
            ": record the object so that more of it is seen in both sessions";
   const Evidence evidence = evidenceOf(quality);
-  const double worst = std::min({ evidence.space, evidence.fit, evidence.contact, evidence.color });
-  if (worst == evidence.color)
+  const double color = evidence.color + evidence.light;
+  const double worst = std::min({ evidence.space, evidence.fit, evidence.contact, color });
+  if (worst == color)
     return "colours disagree (correlation " + percent(quality.color_agreement) + " over the common surface)" + REMEDY;
   if (worst == evidence.contact)
     return "the object would be " + millimetres(quality.contact_gap_m) + " off what it stood on" + REMEDY;

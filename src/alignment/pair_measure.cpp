@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "color_comparison.h"
 #include "support_contact.h"
 
 namespace object_modelling::alignment
@@ -13,35 +14,6 @@ constexpr float SAME_SIDE_COSINE = 0.7F;
 constexpr double SAME_SURFACE_SPACINGS = 1.7;
 constexpr float SPACE_SIGMAS = 3;
 constexpr float SPACE_MARGIN_M = 0.004F;  // registration and calibration, beyond noise
-
-/// Sums for the correlation of the colours where the parts overlap.
-struct ColorSums
-{
-  Eigen::Vector3d a = Eigen::Vector3d::Zero(), b = Eigen::Vector3d::Zero();
-  double aa = 0, bb = 0, ab = 0, count = 0;
-
-  void add(const Eigen::Vector3f& of_a, const Eigen::Vector3f& of_b)
-  {
-    const Eigen::Vector3d x = of_a.cast<double>(), y = of_b.cast<double>();
-    a += x;
-    b += y;
-    aa += x.squaredNorm();
-    bb += y.squaredNorm();
-    ab += x.dot(y);
-    count += 1;
-  }
-  /// Exposure and white balance move the means; what is left must agree.
-  void finish(double* agreement, double* texture) const
-  {
-    if (count < 1)
-      return;
-    const double variance_a = std::max(0.0, aa / count - (a / count).squaredNorm());
-    const double variance_b = std::max(0.0, bb / count - (b / count).squaredNorm());
-    const double covariance = ab / count - (a / count).dot(b / count);
-    *texture = std::sqrt(std::sqrt(variance_a * variance_b));
-    *agreement = *texture > 1e-6 ? covariance / (*texture * *texture) : 0;
-  }
-};
 
 /// What one part's points meet in the other.
 struct Meeting
@@ -76,7 +48,7 @@ void lookAt(const std::vector<SpaceView>& views, const Eigen::Vector3f& p, Meeti
 }
 
 Meeting meet(const Part& fixed, const Part& moving, const Eigen::Isometry3f& T_fixed_moving, bool many, bool swapped,
-             ColorSums* colors)
+             ColorComparison* colors)
 {
   Meeting meeting;
   const auto reach_m =
@@ -101,7 +73,10 @@ Meeting meet(const Part& fixed, const Part& moving, const Eigen::Isometry3f& T_f
     const Eigen::Vector3f there =
         many ? Eigen::Vector3f(fixed.colors[j] + fixed.gradients[j] * (off - n * distance_m)) : fixed.blurred_colors[j];
     const Eigen::Vector3f& here = many ? moving.colors[i] : moving.blurred_colors[i];
-    colors->add(swapped ? here : there, swapped ? there : here);
+    if (swapped)
+      colors->add(here, there, moving.model.normals[i]);
+    else
+      colors->add(there, here, n);
   }
   return meeting;
 }
@@ -125,7 +100,7 @@ double coarseOverlap(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_
 
 PairQuality measurePair(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_b, bool many)
 {
-  ColorSums colors;
+  ColorComparison colors;
   const Meeting b_on_a = meet(a, b, T_a_b, many, false, &colors);
   const Meeting a_on_b = meet(b, a, T_a_b.inverse(), many, true, &colors);
   PairQuality quality;
@@ -135,7 +110,10 @@ PairQuality measurePair(const Part& a, const Part& b, const Eigen::Isometry3f& T
   const double same = b_on_a.same + a_on_b.same;
   quality.rmse_m = same > 0 ? std::sqrt((b_on_a.squares + a_on_b.squares) / same) : 0;
   quality.contact_gap_m = contactGap_m(a, b, T_a_b);
-  colors.finish(&quality.color_agreement, &quality.texture);
+  const ColorComparison::Result compared = colors.result();
+  quality.color_agreement = compared.agreement;
+  quality.texture = compared.texture;
+  quality.light_variance = compared.light_variance;
   quality.probability = 1 / (1 + std::exp(-evidenceOf(quality).logit()));
   return quality;
 }
@@ -157,14 +135,18 @@ Evidence evidenceOf(const PairQuality& quality)
   evidence.contact = CONTACT_PER_M * std::max(0.0, quality.contact_gap_m - FREE_GAP_M);
   // Print that differs counts more than print that agrees: labels look alike from afar. Strong print tells poses apart
   // all the better, but light changes it in proportion: whether the pose is right at all is not for it to say.
-  const auto color_evidence = [&](double variance)
+  const auto color_evidence = [&](double variance, double light_variance)
   {
-    return COLOR_DIFFERENCE * std::max(0.0, variance * (1 - quality.color_agreement) - FREE_COLOR_DIFFERENCE) +
+    const double difference = variance * (1 - quality.color_agreement) - light_variance;
+    return COLOR_DIFFERENCE * std::max(0.0, difference - FREE_COLOR_DIFFERENCE) +
            COLOR_AGREEMENT * variance * quality.color_agreement;
   };
   const double variance = quality.texture * quality.texture;
-  evidence.color = color_evidence(std::min(variance, MAX_VARIANCE));
-  evidence.strong_color = color_evidence(variance) - evidence.color;
+  const double counted = std::min(variance, MAX_VARIANCE);
+  evidence.color = color_evidence(counted, 0);
+  if (variance > 0)
+    evidence.light = color_evidence(counted, quality.light_variance * counted / variance) - evidence.color;
+  evidence.strong_color = color_evidence(variance, 0) - evidence.color;
   return evidence;
 }
 

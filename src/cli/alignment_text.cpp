@@ -28,6 +28,7 @@ nlohmann::json toJson(const alignment::PairCandidate& candidate)
            { "contact_gap_m", quality.contact_gap_m },
            { "color_agreement", quality.color_agreement },
            { "texture", quality.texture },
+           { "light_variance", quality.light_variance },
            { "probability", quality.probability } };
 }
 }  // namespace

@@ -14,7 +14,7 @@ AlignmentEdge edge()
   candidate.kind = ProposalKind::BY_HAND;
   candidate.T_a_b =
       Eigen::Translation3d(0.1, -1.0 / 3, 2e-9) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized());
-  candidate.quality = { 0.57, 1e-3, 4.1e-4, 2e-3, -0.3, 0.11, 0.975 };
+  candidate.quality = { 0.57, 1e-3, 4.1e-4, 2e-3, -0.3, 0.11, 0.004, 0.975 };
   AlignmentEdge result;
   result.session_a = "mug_1";
   result.session_b = "mug_2";
@@ -65,7 +65,16 @@ TEST(AlignmentRecord, KeepsEverything)
   EXPECT_EQ(is.quality.contact_gap_m, was.quality.contact_gap_m);
   EXPECT_EQ(is.quality.color_agreement, was.quality.color_agreement);
   EXPECT_EQ(is.quality.texture, was.quality.texture);
+  EXPECT_EQ(is.quality.light_variance, was.quality.light_variance);
   EXPECT_EQ(is.quality.probability, was.quality.probability);
+}
+
+TEST(AlignmentRecord, ReadsOneFromBeforeLightWasMeasured)
+{
+  const std::string old = replaced(recordOf(edge()).findings, "    light_variance: 0.004\n", "");
+  const AlignmentEdge after = edgeFrom({ "mug_1", "mug_2", old });
+  EXPECT_EQ(after.candidates.front().quality.light_variance, 0);
+  EXPECT_EQ(after.candidates.front().quality.probability, 0.975);
 }
 
 TEST(AlignmentRecord, KeepsARefusalWithoutPoses)

@@ -31,6 +31,7 @@ nlohmann::json candidateJson(const PairRow& pair, std::size_t index)
                           { "contact_gap_m", quality.contact_gap_m },
                           { "color_agreement", quality.color_agreement },
                           { "texture", quality.texture },
+                          { "light_variance", quality.light_variance },
                           { "probability", quality.probability },
                           { "right", static_cast<bool>(pair.right[index]) },
                           { "rotation_error_deg", nullptr },

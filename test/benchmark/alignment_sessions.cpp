@@ -33,8 +33,9 @@ void removeStore(const std::string& path)
     fs::remove(path + suffix);
 }
 
-/// Default options throughout, as those of the command are.
-void makeSession(const std::string& folder, const std::string& id, const std::string& path)
+/// Default options but for the camera's noise model, as those of the command are.
+void makeSession(const std::string& folder, const std::string& id, const std::string& path,
+                 const rgbd::SensorNoiseModel& noise_model)
 {
   const std::unique_ptr<keyframes::SessionStore> store = keyframes::openSqlStore(path);
   const std::unique_ptr<source::FrameSource> source = source::openTumFolder(folder);
@@ -42,7 +43,9 @@ void makeSession(const std::string& folder, const std::string& id, const std::st
   session.id = id;
   session.object_id = objectFolderOf(folder);
   base::JobControl control;
-  pipeline::recordSession(*source, session, store.get(), {}, control);
+  pipeline::RecordOptions options;
+  options.frame.noise_model = noise_model;
+  pipeline::recordSession(*source, session, store.get(), options, control);
   require("refinement", pipeline::refineSessionBy(*store, id, {}, control).status);
   require("segmentation", pipeline::segmentSession(*store, id, std::nullopt, {}, control).status);
 }
@@ -70,7 +73,8 @@ std::string objectFolderOf(const std::string& folder)
   return cleaned(folder).parent_path().filename().string();
 }
 
-StoredSession storedSession(const std::string& folder, const std::string& cache)
+StoredSession storedSession(const std::string& folder, const std::string& cache,
+                            const rgbd::SensorNoiseModel& noise_model)
 {
   const std::string id = sessionIdOf(folder);
   const std::string path = (fs::path(cache) / (id + ".sqlite")).string(), unfinished = path + ".unfinished";
@@ -82,7 +86,7 @@ StoredSession storedSession(const std::string& folder, const std::string& cache)
     removeStore(unfinished);
     try
     {
-      makeSession(folder, id, unfinished);
+      makeSession(folder, id, unfinished, noise_model);
     }
     catch (const base::Error&)
     {

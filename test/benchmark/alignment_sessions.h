@@ -20,8 +20,9 @@ std::string sessionIdOf(const std::string& folder);
 /// The first of these two.
 std::string objectFolderOf(const std::string& folder);
 
-/// From `cache`/<session id>.sqlite, or made as the command `model` makes it and kept there. Throws base::Error; a
-/// session that could not be made leaves no file.
-StoredSession storedSession(const std::string& folder, const std::string& cache);
+/// From `cache`/<session id>.sqlite, or made as the command `model` makes it and kept there. What is there already was
+/// made with the noise model of then. Throws base::Error; a session that could not be made leaves no file.
+StoredSession storedSession(const std::string& folder, const std::string& cache,
+                            const rgbd::SensorNoiseModel& noise_model);
 
 }  // namespace object_modelling::benchmark_alignment

@@ -17,6 +17,7 @@
 #include "alignment_sessions.h"
 #include "benchmark_program.h"
 #include "object_modelling/evaluation/comparison_files.h"
+#include "object_modelling/rgbd/noise_model_file.h"
 
 namespace
 {
@@ -31,6 +32,7 @@ struct Arguments
   int arcs = 0;  ///< parts of each session, of a run of its keyframes each; 0: one of all
   std::uint64_t seed = 1;
   std::size_t max_cross = 0;  ///< 0: all
+  rgbd::SensorNoiseModel noise_model;
   alignment::PartialModelOptions part;
   alignment::PairAlignmentOptions pair;
 };
@@ -81,7 +83,7 @@ SessionRow prepareSession(const std::string& folder, int arc, const Arguments& a
     row.id += "/" + std::to_string(arc);
   try
   {
-    StoredSession stored = storedSession(folder, arguments.cache);
+    StoredSession stored = storedSession(folder, arguments.cache, arguments.noise_model);
     row.made_s = stored.made_s;
     row.truth = sessionTruth(folder, objectFolderOf(folder), stored.keyframes);
     if (arguments.arcs > 0)
@@ -200,6 +202,7 @@ int main(int argc, char** argv)
       "Right is an alignment within 1.5 deg and 1.5 mm; with --grey also one that puts the surface within 1.5 mm of\n"
       "the true one, for shape alone does not tell symmetric poses apart. Exit codes: 1 failed, 2 wrong usage.");
   Arguments arguments;
+  std::string noise_model;
   double spacing_mm = 1e3 * arguments.part.spacing_m;
   app.add_option("folders", arguments.folders, "TUM-style folders with groundtruth.txt and objects.yaml")
       ->required()
@@ -207,6 +210,9 @@ int main(int argc, char** argv)
   app.add_option("--cache", arguments.cache,
                  "Folder that keeps the refined, segmented sessions; those that are there already are not made again")
       ->required();
+  app.add_option("--noise-model", noise_model,
+                 "YAML of the sensor, as calibrate_camera writes it; for sessions that are not in the cache")
+      ->check(CLI::ExistingFile);
   app.add_flag("--grey", arguments.grey, "Without colour and features, by shape alone");
   app.add_flag("--cross", arguments.cross, "Also pairs of different objects, which should be refused");
   app.add_option("--arcs", arguments.arcs,
@@ -225,6 +231,8 @@ int main(int argc, char** argv)
                                 {
                                   arguments.part.use_color = !arguments.grey;
                                   arguments.part.spacing_m = 1e-3 * spacing_mm;
+                                  if (!noise_model.empty())
+                                    arguments.noise_model = rgbd::loadNoiseModel(noise_model);
                                   run(arguments);
                                 });
 }

@@ -28,6 +28,7 @@ struct PairQuality
   double contact_gap_m = 0;    ///< how far the lowest points are off the support plane of the other session; the larger
   double color_agreement = 0;  ///< [-1, 1] correlation over the overlap; 0 without texture
   double texture = 0;          ///< standard deviation of the colours of the overlap: what the agreement is worth
+  double light_variance = 0;   ///< of the differences of colours, as much as light from elsewhere explains
   double probability = 0;      ///< of being right, by weights from simulated pairs (docs/alignment.md)
 };
 

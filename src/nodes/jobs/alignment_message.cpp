@@ -19,6 +19,7 @@ object_modelling::AlignmentCandidate toMessage(const alignment::PairCandidate& c
   message.contact_gap_m = candidate.quality.contact_gap_m;
   message.color_agreement = candidate.quality.color_agreement;
   message.texture = candidate.quality.texture;
+  message.light_variance = candidate.quality.light_variance;
   message.probability = candidate.quality.probability;
   return message;
 }
