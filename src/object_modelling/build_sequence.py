@@ -1,6 +1,7 @@
 """Order of the stages that make an object from stored sessions; free of ROS.
 
-`jobs` offers list_sessions() and session(id) (objects with session_id, object_id, keyframe_count) and the long jobs
+`jobs` offers list_sessions() and session(id) (objects with session_id, object_id, keyframe_count,
+refinement_report, has_support_plane) and the long jobs
 refine(ids, progress), segment(id, progress), align(ids, progress) -> placements, note and
 build(object_id, name, placements, replace, progress) -> built, note. All raise Failure. A note tells what a job that
 succeeded could not do; else it is empty.
@@ -43,9 +44,10 @@ def _sessions_of(jobs, object_id, last_session_id):
     )
 
 
-def build(jobs, object_id, name, session_ids, replace, progress, clock):
+def build(jobs, object_id, name, session_ids, replace, again, progress, clock):
     """Runs all stages; returns (built, [(stage, seconds)], note). progress(stage, step, done, total) may raise Failure to
-    cancel: a stage then leaves the store as it was."""
+    cancel: a stage then leaves the store as it was. Sessions that were refined or segmented already are so only `again` on
+    request: a person may have chosen the object."""
     times = []
 
     def run(stage, job):
@@ -55,13 +57,19 @@ def build(jobs, object_id, name, session_ids, replace, progress, clock):
         times.append((stage, clock() - start))
         return result
 
-    def segment_all(report):
-        for index, session_id in enumerate(session_ids):
-            prefix = "" if len(session_ids) == 1 else "%d of %d, " % (index + 1, len(session_ids))
+    def refine(report):
+        unrefined = [name for name in session_ids if again or not jobs.session(name).refinement_report]
+        if unrefined:
+            jobs.refine(unrefined, report)
+
+    def segment(report):
+        unsegmented = [name for name in session_ids if again or not jobs.session(name).has_support_plane]
+        for index, session_id in enumerate(unsegmented):
+            prefix = "" if len(unsegmented) == 1 else "%d of %d, " % (index + 1, len(unsegmented))
             jobs.segment(session_id, lambda step, done, total: report(prefix + step, done, total))
 
-    run("refine", lambda report: jobs.refine(session_ids, report))
-    run("segment", segment_all)
+    run("refine", refine)
+    run("segment", segment)
     placements, left_out = run("align", lambda report: jobs.align(session_ids, report))
     built, unfinished = run("build", lambda report: jobs.build(object_id, name, placements, replace, report))
     return built, times, "; ".join(note for note in (left_out, unfinished) if note)

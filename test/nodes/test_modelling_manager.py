@@ -153,6 +153,18 @@ class BuildTest(ManagerTest):
         self.wait_until(lambda: self.progress and not self.progress[-1].active, "the end on ~progress")
         self.assertIn("build mug", {report.job for report in self.progress})
 
+    def test_what_was_done_is_done_again_on_request_only(self):
+        self.recording.add("s1", "mug")
+        self.recording.sessions["s1"].refinement_report = "done"
+        self.recording.sessions["s1"].has_support_plane = True
+        self.recording.add("s2", "mug")
+        self.build(wait=True)
+        self.assertEqual(self.jobs.refine.goals[0].session_ids, ["s2"])
+        self.assertEqual([goal.session_id for goal in self.jobs.segment.goals], ["s2"])
+        self.build(wait=True, again=True)
+        self.assertEqual(self.jobs.refine.goals[1].session_ids, ["s1", "s2"])
+        self.assertEqual([goal.session_id for goal in self.jobs.segment.goals], ["s2", "s1", "s2"])
+
     def test_what_was_left_out_reaches_who_asked(self):
         self.recording.add("s1", "mug")
         self.recording.add("s2", "mug")

@@ -60,6 +60,9 @@ std::vector<rgbd::Keyframe> SessionRecord::reopen(const std::string& session_id,
     throw base::Error(base::StatusCode::NO_RESULT,
                       "session '" + session_id + "' has no keyframes to continue from; delete it and start anew");
   session.closed = false;
+  // The keyframes to come are not refined and show no object yet.
+  session.refinement_report.clear();
+  session.support_plane_session.reset();
   store_.updateSession(session);
   return keyframes;
 }

@@ -4,7 +4,8 @@ import unittest
 from object_modelling import build_sequence
 from object_modelling.outcome import Code, Failure
 
-Session = collections.namedtuple("Session", "session_id object_id keyframe_count")
+Session = collections.namedtuple(
+    "Session", "session_id object_id keyframe_count refinement_report has_support_plane", defaults=("", False))
 
 
 class FakeJobs:
@@ -89,12 +90,26 @@ class ChooseSessionsTest(unittest.TestCase):
 
 
 class BuildTest(unittest.TestCase):
-    def build(self, jobs, progress=lambda stage, step, done, total: None):
+    def setUp(self):
+        self.new = [Session("a", "mug", 5), Session("b", "mug", 6)]
+
+    def build(self, jobs, progress=lambda stage, step, done, total: None, again=False):
         ticks = iter(range(100))
-        return build_sequence.build(jobs, "mug", "Mug", ["a", "b"], True, progress, lambda: next(ticks))
+        return build_sequence.build(jobs, "mug", "Mug", ["a", "b"], True, again, progress, lambda: next(ticks))
+
+    def test_what_was_refined_or_segmented_stays(self):
+        jobs = FakeJobs([Session("a", "mug", 5, "report", True), Session("b", "mug", 6, "report", False)])
+        times = self.build(jobs)[1]
+        self.assertEqual([stage for stage, _ in times], ["refine", "segment", "align", "build"])
+        self.assertEqual(jobs.calls[:2], [("segment", "b"), ("align", ("a", "b"))])
+
+    def test_all_again_on_request(self):
+        jobs = FakeJobs([Session("a", "mug", 5, "report", True), Session("b", "mug", 6, "report", False)])
+        self.build(jobs, again=True)
+        self.assertEqual(jobs.calls[:3], [("refine", ("a", "b")), ("segment", "a"), ("segment", "b")])
 
     def test_order_and_times(self):
-        jobs = FakeJobs()
+        jobs = FakeJobs(self.new)
         built, times, note = self.build(jobs)
         self.assertEqual((built, note), ("built", ""))
         self.assertEqual(times, [("refine", 1), ("segment", 1), ("align", 1), ("build", 1)])
@@ -104,20 +119,20 @@ class BuildTest(unittest.TestCase):
              ("build", ("mug", "Mug", ("placement of a", "placement of b"), True))])
 
     def test_notes_are_joined(self):
-        jobs = FakeJobs()
+        jobs = FakeJobs(self.new)
         for notes, expected in ((("left out", ""), "left out"), (("left out", "no report"), "left out; no report")):
             jobs.notes = notes
             self.assertEqual(self.build(jobs)[2], expected)
 
     def test_progress(self):
         reports = []
-        self.build(FakeJobs(), lambda *report: reports.append(report))
+        self.build(FakeJobs(self.new), lambda *report: reports.append(report))
         self.assertIn(("segment", "2 of 2, step", 1, 2), reports)
         self.assertEqual(reports[0], ("refine", "", 0, 0))
 
     def test_a_failed_stage_is_the_last(self):
         for stage in ("refine", "segment", "align", "build"):
-            jobs = FakeJobs(fails=stage)
+            jobs = FakeJobs(self.new, fails=stage)
             with self.assertRaises(Failure):
                 self.build(jobs)
             self.assertEqual(jobs.calls[-1][0], stage)
@@ -127,7 +142,7 @@ class BuildTest(unittest.TestCase):
             if stage == "align":
                 raise Failure(Code.CANCELLED, "cancelled")
 
-        jobs = FakeJobs()
+        jobs = FakeJobs(self.new)
         with self.assertRaises(Failure):
             self.build(jobs, cancel)
         self.assertNotIn("build", [call[0] for call in jobs.calls])

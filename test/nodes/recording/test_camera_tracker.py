@@ -121,8 +121,14 @@ class CameraTrackerTest(unittest.TestCase):
         self.tracker.stop()
         before = get_session("left", "resumed")
         self.assertEqual(self.tracker.start(session_id="nobody", resume=True).status.code, Status.NOT_FOUND)
+        before.session.refinement_report = "of the keyframes so far"
+        before.session.has_support_plane = True
+        before.session.support_plane.normal.z = 1
+        update = rospy.ServiceProxy("left/keyframe_store/update_session", srv.UpdateSession)
+        self.assertEqual(update(before.session).status.code, Status.OK)
         self.start("resumed", resume=True)
-        self.assertFalse(get_session("left", "resumed").session.closed)
+        again = get_session("left", "resumed").session
+        self.assertFalse(again.closed or again.has_support_plane or again.refinement_report)
         states = [self.camera.track(index) for index in range(1, 45)]
         self.assertIn(states[-1].status, TRACKED, states[-1].reason)
         ended = self.tracker.stop()
