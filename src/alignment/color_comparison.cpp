@@ -43,7 +43,7 @@ ColorComparison::Result ColorComparison::result() const
   Result result;
   result.texture = std::sqrt(std::sqrt(variance_a * variance_b));
   result.agreement = result.texture > 1e-6 ? covariance / (result.texture * result.texture) : 0;
-  result.light_variance = std::max(0.0, (variance_a + variance_b - variance_left) / 2 - covariance);
+  result.light_variance = LightDifference::explained((variance_a + variance_b) / 2 - covariance, variance_left / 2);
   return result;
 }
 

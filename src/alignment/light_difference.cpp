@@ -1,5 +1,7 @@
 #include "light_difference.h"
 
+#include <algorithm>
+
 #include <Eigen/Dense>
 
 namespace object_modelling::alignment
@@ -8,6 +10,7 @@ namespace
 {
 constexpr double LIGHT_SIGMA = 0.15;  // of what another light makes of brightness and hue
 constexpr double PATCHES = 30;        // of a surface whose print errs on its own
+constexpr double SLOPES = 3;
 
 template <typename Scalar>
 Eigen::Matrix<Scalar, 4, 1> basis(const Eigen::Vector3f& normal)
@@ -43,6 +46,12 @@ void LightDifference::solve()
 Eigen::Vector3f LightDifference::at(const Eigen::Vector3f& normal) const
 {
   return light_.transpose() * basis<float>(normal);
+}
+
+double LightDifference::explained(double variance, double variance_left)
+{
+  constexpr double CHANCE = SLOPES / PATCHES;
+  return std::max(0.0, (variance - variance_left - CHANCE * variance) / (1 - CHANCE));
 }
 
 }  // namespace object_modelling::alignment

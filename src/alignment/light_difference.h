@@ -19,6 +19,11 @@ public:
 
   Eigen::Vector3f at(const Eigen::Vector3f& normal) const;
 
+  /// How much of the variance of the differences is light's, given what it is with and without this light taken off.
+  /// Any differences of print are linear in the normal by some share; that is taken off (adjusted R squared, Theil
+  /// 1961).
+  static double explained(double variance, double variance_left);
+
 private:
   Eigen::Matrix4d A_ = Eigen::Matrix4d::Zero();
   Eigen::Matrix<double, 4, 3> B_ = Eigen::Matrix<double, 4, 3>::Zero();

@@ -60,6 +60,25 @@ TEST(ColorComparison, TellsWeakPrintFromAnotherLight)
   EXPECT_NEAR(other.light_variance, same.light_variance, 0.1 * same.light_variance);
 }
 
+TEST(ColorComparison, WhatAnyPrintHasOfItIsNoLight)
+{
+  EXPECT_EQ(compare(stripes(0.3F, 0), stripes(0.3F, 1.6F)).light_variance, 0);
+  // Blots as large as a sixth of the sphere, of which some are on one side more than on the other.
+  const auto blots = [](float phase)
+  {
+    return [phase](const Eigen::Vector3f& n)
+    {
+      return Eigen::Vector3f(
+          std::sin(4 * n.x() + phase) * std::sin(4 * n.y() + 2 * phase) * std::sin(4 * n.z() + phase), 0, 0);
+    };
+  };
+  for (const float phase : { 0.5F, 1.0F, 2.0F })
+  {
+    const ColorComparison::Result other = compare(blots(phase), blots(phase + 1));
+    EXPECT_LT(other.light_variance, 0.1 * difference(other)) << phase;
+  }
+}
+
 TEST(ColorComparison, LightThatIsTheSameIsLeft)
 {
   const ColorOf lit = under(Eigen::Vector3f::UnitY(), stripes(0.02F, 0));

@@ -13,7 +13,7 @@ struct PairAlignmentOptions
   int rotations = 3000;             ///< tried evenly over all of them, besides those that features and faces propose
   int refined_candidates = 40;      ///< best ones that are refined finely; up to four times as many if they score alike
   double min_overlap_ratio = 0.12;  ///< of the surface of the smaller part
-  double min_probability = 0.55;    ///< below it an alignment is refused
+  double min_probability = 0.57;    ///< below it an alignment is refused
   std::uint64_t seed = 1;           ///< of the choice of feature samples
   int threads = 2;                  ///< any number gives the same bits
   std::vector<std::string> violations() const;
