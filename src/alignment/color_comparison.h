@@ -17,7 +17,7 @@ public:
   {
     double agreement = 0;       ///< [-1, 1] correlation; 0 without texture
     double texture = 0;         ///< geometric mean of the two standard deviations
-    double light_variance = 0;  ///< by how much less a and b vary against each other, each, without such a light
+    double light_variance = 0;  ///< how much of the mean of the two variances less the covariance is light's
   };
   Result result() const;
 

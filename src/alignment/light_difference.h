@@ -28,7 +28,7 @@ private:
   Eigen::Matrix4d A_ = Eigen::Matrix4d::Zero();
   Eigen::Matrix<double, 4, 3> B_ = Eigen::Matrix<double, 4, 3>::Zero();
   Eigen::Array3d squares_ = Eigen::Array3d::Zero();
-  Eigen::Matrix<float, 4, 3> light_ = Eigen::Matrix<float, 4, 3>::Zero();  ///< by (1, normal): a column per channel
+  Eigen::Matrix<float, 4, 3> light_ = Eigen::Matrix<float, 4, 3>::Zero();  ///< by (normal, 1): a column per channel
 };
 
 }  // namespace object_modelling::alignment
