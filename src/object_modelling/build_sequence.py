@@ -57,13 +57,20 @@ def build(jobs, object_id, name, session_ids, replace, again, progress, clock):
         times.append((stage, clock() - start))
         return result
 
+    def pending(is_done, report):
+        left = [name for name in session_ids if again or not is_done(jobs.session(name))]
+        done = [name for name in session_ids if name not in left]
+        if done:
+            report("as before: " + ", ".join(done), 0, 0)
+        return left
+
     def refine(report):
-        unrefined = [name for name in session_ids if again or not jobs.session(name).refinement_report]
+        unrefined = pending(lambda session: session.refinement_report, report)
         if unrefined:
             jobs.refine(unrefined, report)
 
     def segment(report):
-        unsegmented = [name for name in session_ids if again or not jobs.session(name).has_support_plane]
+        unsegmented = pending(lambda session: session.has_support_plane, report)
         for index, session_id in enumerate(unsegmented):
             prefix = "" if len(unsegmented) == 1 else "%d of %d, " % (index + 1, len(unsegmented))
             jobs.segment(session_id, lambda step, done, total: report(prefix + step, done, total))

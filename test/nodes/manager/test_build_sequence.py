@@ -99,8 +99,11 @@ class BuildTest(unittest.TestCase):
 
     def test_what_was_refined_or_segmented_stays(self):
         jobs = FakeJobs([Session("a", "mug", 5, "report", True), Session("b", "mug", 6, "report", False)])
-        times = self.build(jobs)[1]
+        reports = []
+        times = self.build(jobs, lambda *report: reports.append(report))[1]
         self.assertEqual([stage for stage, _ in times], ["refine", "segment", "align", "build"])
+        self.assertIn(("refine", "as before: a, b", 0, 0), reports)
+        self.assertIn(("segment", "as before: a", 0, 0), reports)
         self.assertEqual(jobs.calls[:2], [("segment", "b"), ("align", ("a", "b"))])
 
     def test_all_again_on_request(self):
