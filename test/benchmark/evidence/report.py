@@ -1,0 +1,115 @@
+"""Tables of what alignment decided, of judged reports."""
+
+import os
+
+import numpy as np
+import yaml
+
+ENOUGH_OVERLAP = 0.2  # less is too little to tell an alignment from another
+BINS = [0, 0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.95, 1.0001]
+FEW_PAIRS = 20  # in a bin: fewer say nothing of reliability
+NOT_TURNED_RAD = 0.17
+
+
+def same_pose(pair):
+    """Whether the object was not turned over: that is for an option to say, not for the weights."""
+    return pair["same_object"] and 0 <= (pair["true_turn_rad"] or 0) < NOT_TURNED_RAD
+
+
+def outcome(pair):
+    """"right", "wrong", or "refused"; a pair of two objects is right to be refused."""
+    if not pair["accepted"]:
+        return "refused"
+    return "right" if pair["same_object"] and pair["candidates"][0]["right"] else "wrong"
+
+
+def group_of(pair, sessions, by):
+    """What the object or its recording is, by the object.yaml beside its mesh or by the scene."""
+    session = sessions[pair["a"]]
+    if by == "sensor":
+        path = os.path.join(session["folder"], "scene.yaml")
+        with open(path) as text:
+            return (yaml.safe_load(text).get("depth") or {}).get("model", "kinect")
+    path = os.path.join(os.path.dirname(os.path.join(session["folder"], session["mesh"])), "object.yaml")
+    metadata = {}
+    if os.path.exists(path):
+        with open(path) as text:
+            metadata = yaml.safe_load(text) or {}
+    return str(metadata.get(by, "scanned"))
+
+
+def counts(pairs):
+    result = {"pairs": len(pairs), "right": 0, "wrong": 0, "refused": 0}
+    for pair in pairs:
+        result[outcome(pair)] += 1
+    return result
+
+
+def row(label, pairs):
+    c = counts(pairs)
+    share = f"{100 * c['right'] / c['pairs']:.1f} %" if c["pairs"] else ""
+    exact = sum(p["accepted"] and p["candidates"][0]["right"] and p["candidates"][0]["rotation_error_deg"] <= 1.5
+                and p["candidates"][0]["translation_error_mm"] <= 1.5 for p in pairs)
+    return f"| {label} | {c['pairs']} | {c['right']} | {share} | {c['wrong']} | {c['refused']} | {exact} |"
+
+
+def outcome_table(report):
+    """Pairs of one object with enough in common, all and by kind of object, print and sensor."""
+    sessions = {s["id"]: s for s in report["sessions"]}
+    same = [p for p in report["pairs"] if p["same_object"] and not same_pose(p)]
+    enough = [p for p in same if p["true_overlap_ratio"] >= ENOUGH_OVERLAP]
+    lines = ["| pairs | number | right | | wrong | refused | right within 1.5 deg, 1.5 mm |", "|" + "---|" * 7,
+             row("all with overlap >= 20 %", enough),
+             row("less overlap", [p for p in same if p["true_overlap_ratio"] < ENOUGH_OVERLAP])]
+    for by in ("sensor", "kind", "print"):
+        groups = [group_of(p, sessions, by) for p in enough]
+        for name in sorted(set(groups)):
+            lines.append(row(f"{by}: {name}", [p for p, g in zip(enough, groups) if g == name]))
+    cross = [p for p in report["pairs"] if not p["same_object"]]
+    if cross:
+        lines.append(f"\nPairs of two objects: {counts(cross)['wrong']} of {len(cross)} accepted.")
+    again = [p for p in report["pairs"] if same_pose(p)]
+    if again:
+        c = counts(again)
+        lines.append(f"\nNot turned over: {c['right']} right, {c['wrong']} wrong, {c['refused']} refused.")
+    seconds = [p["seconds"] for p in report["pairs"]]
+    lines.append(f"\nSeconds a pair: median {np.median(seconds):.2f}, at most {max(seconds):.2f}.")
+    left_out = [s for s in report["sessions"] if s["problem"]]
+    lines += [f"\nLeft out: {s['id']}: {s['problem']}" for s in left_out]
+    return "\n".join(lines)
+
+
+def reliability_table(report):
+    """How often the best pose is right, by the probability that it was given; pairs of one object, turned over."""
+    pairs = [p for p in report["pairs"] if p["same_object"] and not same_pose(p) and p["candidates"]]
+    given = np.array([p["candidates"][0]["probability"] for p in pairs])
+    right = np.array([bool(p["candidates"][0]["right"]) for p in pairs])
+    lines = ["| probability | pairs | mean | right | off |", "|" + "---|" * 5]
+    for low, high in zip(BINS, BINS[1:]):
+        inside = (given >= low) & (given < high)
+        if inside.any():
+            off = right[inside].mean() - given[inside].mean()
+            lines.append(f"| {low:.2f} to {min(high, 1):.2f} | {inside.sum()} | {given[inside].mean():.3f} "
+                         f"| {right[inside].mean():.3f} | {100 * off:+.1f} %{'' if inside.sum() >= FEW_PAIRS else ' (few)'} |")
+    lines.append(f"\nBrier score {np.mean((given - right) ** 2):.4f}")
+    return "\n".join(lines)
+
+
+def failures_table(report):
+    """Every pair that is wrong or refused, with its first candidate and the first that is right."""
+    lines = ["| pair | outcome | overlap | turn | first: probability, deg, overlap, colour, gap mm, fsv | right one: rank, "
+             "probability, overlap, colour, gap mm, fsv | reason |", "|" + "---|" * 7]
+
+    def figures(c):
+        return (f"{c['probability']:.2f}, {c['rotation_error_deg']:.1f}, {c['overlap_ratio']:.2f}, "
+                f"{c['color_agreement']:.2f}, {1000 * c['contact_gap_m']:.1f}, {c['fsv_ratio']:.3f}")
+
+    for pair in report["pairs"]:
+        if not pair["same_object"] or outcome(pair) == "right":
+            continue
+        rank = next((k for k, c in enumerate(pair["candidates"]) if c["right"]), None)
+        first = figures(pair["candidates"][0]) if pair["candidates"] else "none"
+        right = "none" if rank is None else f"{rank + 1}, " + figures(pair["candidates"][rank])
+        lines.append(f"| {pair['a']}, {pair['b']} | {outcome(pair)} | {pair['true_overlap_ratio']:.2f} "
+                     f"| {np.degrees(pair['true_turn_rad'] or 0):.0f} | {first} | {right} | {pair['reason'][:90]} |")
+    return "\n".join(lines)
