@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include "object_modelling/alignment/pair_evidence.h"
 #include "object_modelling/base/options.h"
 #include "object_modelling/base/status.h"
 #include "object_modelling/geometry/transform.h"
@@ -70,15 +71,17 @@ PairCandidate alignByPoints(const PartialModel& a, const PartialModel& b, const 
   coarse.gate_m = MAX_MOVE_RATIO * part_a.radius_m;
   coarse.last_gate_m = 0.3 * coarse.gate_m;
   Eigen::Isometry3f refined = alignSurfaces(part_a, part_b, clicked.cast<float>(), coarse);
-  const PairQuality quality = refinePose(part_a, part_b, &refined);
+  const PartPair pair(part_a, part_b, options.threads);
+  PairQuality quality = refinePose(pair, &refined);
   const Eigen::Vector3d centre = b.centre().cast<double>();
   const Eigen::Isometry3d T_a_b = geometry::normalised(refined.cast<double>());
   const bool near = geometry::rotationAngle_rad(clicked.inverse() * T_a_b) < MAX_TURN_RAD &&
                     (clicked * centre - T_a_b * centre).norm() < MAX_MOVE_RATIO * part_a.radius_m;
-  if (near)
-    return { ProposalKind::BY_HAND, T_a_b, quality };
   // Where surfaces would slide away, the person knows better.
-  return { ProposalKind::BY_HAND, clicked, measurePair(part_a, part_b, clicked.cast<float>(), true) };
+  if (!near)
+    quality = measurePair(pair, clicked.cast<float>(), true);
+  quality.probability = 1 / (1 + std::exp(-logOdds(quality, options.same_pose_probability)));
+  return { ProposalKind::BY_HAND, near ? T_a_b : clicked, quality };
 }
 
 }  // namespace object_modelling::alignment

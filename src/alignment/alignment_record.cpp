@@ -5,6 +5,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "object_modelling/alignment/pair_figures.h"
 #include "object_modelling/base/status.h"
 #include "object_modelling/base/yaml_number.h"
 #include "object_modelling/geometry/transform.h"
@@ -19,21 +20,6 @@ constexpr double MAX_ROTATION_ERROR = 1e-6;
 const Decision DECISIONS[] = { Decision::AUTOMATIC, Decision::ACCEPTED, Decision::REFUSED };
 const ProposalKind KINDS[] = { ProposalKind::FEATURES, ProposalKind::STABLE_PLANE, ProposalKind::SHAPE,
                                ProposalKind::BY_HAND };
-
-struct Figure
-{
-  const char* name;
-  double PairQuality::*value;
-  bool required = true;  ///< older records lack what was added since: zero
-};
-const Figure FIGURES[] = { { "overlap_ratio", &PairQuality::overlap_ratio },
-                           { "fsv_ratio", &PairQuality::fsv_ratio },
-                           { "rmse_m", &PairQuality::rmse_m },
-                           { "contact_gap_m", &PairQuality::contact_gap_m },
-                           { "color_agreement", &PairQuality::color_agreement },
-                           { "texture", &PairQuality::texture },
-                           { "light_variance", &PairQuality::light_variance, false },
-                           { "probability", &PairQuality::probability } };
 
 std::string pairText(const keyframes::AlignmentRecord& record)
 {
@@ -66,7 +52,7 @@ void emit(YAML::Emitter& out, const PairCandidate& candidate)
     for (int column = 0; column < 4; ++column)
       out << base::yamlNumber(candidate.T_a_b.matrix()(row, column));
   out << YAML::EndSeq;
-  for (const Figure& figure : FIGURES)
+  for (const PairFigure& figure : pairFigures())
     out << YAML::Key << figure.name << YAML::Value << base::yamlNumber(candidate.quality.*figure.value);
   out << YAML::EndMap;
 }
@@ -83,7 +69,7 @@ PairCandidate candidateFrom(const YAML::Node& node)
   const Eigen::Matrix3d R = candidate.T_a_b.linear();
   if (!(R * R.transpose()).isIdentity(MAX_ROTATION_ERROR) || R.determinant() < 0)
     throw base::Error(base::StatusCode::BAD_INPUT, "a_from_b is no rigid motion");
-  for (const Figure& figure : FIGURES)
+  for (const PairFigure& figure : pairFigures())
     if (figure.required || node[figure.name])
       candidate.quality.*figure.value = finite(node[figure.name]);
   return candidate;

@@ -6,46 +6,17 @@
 #include <Eigen/Dense>
 
 #include "object_modelling/geometry/transform.h"
-#include "object_modelling/refinement/keyframe_features.h"
 #include "proposals.h"
 
 namespace object_modelling::alignment
 {
 namespace
 {
-constexpr double MAX_RATIO = 0.85;
 constexpr float MAX_DISTANCE_M = 0.006F;  // of a feature's point from its partner: depth noise at both
 constexpr int SAMPLES = 3000;
 constexpr int MIN_UPHOLDING = 6;
 constexpr std::size_t MAX_PROPOSALS = 10;
 constexpr float MIN_SIDE_RATIO = 0.15F;  // of the part's radius: nearer points say little of rotation
-
-struct PointMatch
-{
-  Eigen::Vector3f a, b;
-};
-
-std::vector<PointMatch> matchesOf(const ObjectFeatures& a, const ObjectFeatures& b)
-{
-  refinement::KeyframeFeatures of_a, of_b;
-  of_a.descriptors = a.descriptors;
-  of_b.descriptors = b.descriptors;
-  of_a.norm = a.norm;
-  of_b.norm = b.norm;
-  std::vector<PointMatch> matches;
-  for (const refinement::FeatureMatch& match : refinement::matchFeatures(of_a, of_b, MAX_RATIO))
-    matches.push_back({ a.points[match.a], b.points[match.b] });
-  return matches;
-}
-
-std::vector<int> upholding(const std::vector<PointMatch>& matches, const Eigen::Isometry3f& T_a_b)
-{
-  std::vector<int> result;
-  for (int i = 0; i < static_cast<int>(matches.size()); ++i)
-    if ((T_a_b * matches[i].b - matches[i].a).squaredNorm() < MAX_DISTANCE_M * MAX_DISTANCE_M)
-      result.push_back(i);
-  return result;
-}
 
 std::optional<Eigen::Isometry3f> poseFrom(const std::vector<PointMatch>& matches, const std::vector<int>& chosen)
 {
@@ -69,17 +40,10 @@ bool congruent(const PointMatch& x, const PointMatch& y, float min_side_m)
 }
 }  // namespace
 
-std::vector<Proposal> proposeByFeatures(const Part& a, const Part& b, std::uint64_t seed, [[maybe_unused]] int threads)
+std::vector<Proposal> proposeByFeatures(const PartPair& pair, std::uint64_t seed)
 {
-  const auto views_b = static_cast<int>(b.model.features.size());
-  const auto pairs = static_cast<int>(a.model.features.size()) * views_b;
-  std::vector<std::vector<PointMatch>> by_pair(pairs);
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (int i = 0; i < pairs; ++i)
-    by_pair[i] = matchesOf(a.model.features[i / views_b], b.model.features[i % views_b]);
-  std::vector<PointMatch> matches;
-  for (const std::vector<PointMatch>& of_pair : by_pair)
-    matches.insert(matches.end(), of_pair.begin(), of_pair.end());
+  const Part &a = pair.a, &b = pair.b;
+  const std::vector<PointMatch>& matches = pair.matches;
   struct Scored
   {
     std::size_t support;
@@ -99,12 +63,12 @@ std::vector<Proposal> proposeByFeatures(const Part& a, const Part& b, std::uint6
     std::optional<Eigen::Isometry3f> T = poseFrom(matches, three);
     if (!T)
       continue;
-    const std::vector<int> first = upholding(matches, *T);
+    const std::vector<int> first = upholding(matches, *T, MAX_DISTANCE_M);
     if (static_cast<int>(first.size()) < MIN_UPHOLDING)
       continue;
     T = poseFrom(matches, first);
     if (T)
-      found.push_back({ upholding(matches, *T).size(), *T });
+      found.push_back({ upholding(matches, *T, MAX_DISTANCE_M).size(), *T });
   }
   std::stable_sort(found.begin(), found.end(), [](const Scored& x, const Scored& y) { return x.support > y.support; });
   std::vector<Proposal> proposals;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "object_modelling/alignment/pair_evidence.h"
 #include "object_modelling/base/options.h"
 #include "pair_decision.h"
 #include "pair_refinement.h"
@@ -64,9 +65,10 @@ std::vector<Candidate> distinctBest(std::vector<Candidate> candidates, const Par
 }
 
 /// All proposals, each moved into place by the shape alone, and how much of b then lies on a.
-std::vector<Candidate> coarse(const Part& a, const Part& b, const PairAlignmentOptions& options)
+std::vector<Candidate> coarse(const PartPair& pair, const PairAlignmentOptions& options)
 {
-  std::vector<Proposal> proposals = proposeByFeatures(a, b, options.seed, options.threads);
+  const Part &a = pair.a, &b = pair.b;
+  std::vector<Proposal> proposals = proposeByFeatures(pair, options.seed);
   for (const Proposal& proposal : proposeByStablePlanes(a, b))
     proposals.push_back(proposal);
   for (const Proposal& proposal : proposeByShape(a, b, options.rotations))
@@ -92,31 +94,31 @@ std::vector<Candidate> coarse(const Part& a, const Part& b, const PairAlignmentO
 }
 
 /// Measured; by `many` points, moved by shape and colour first.
-void refine(const Part& a, const Part& b, bool many, [[maybe_unused]] int threads, std::vector<Candidate>* candidates)
+void refine(const PartPair& pair, bool many, const PairAlignmentOptions& options, std::vector<Candidate>* candidates)
 {
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
+#pragma omp parallel for schedule(dynamic) num_threads(options.threads)
   for (int i = 0; i < static_cast<int>(candidates->size()); ++i)
   {
     Candidate& candidate = (*candidates)[i];
     Eigen::Isometry3f& T = candidate.proposal.T_a_b;
-    candidate.quality = many ? refinePose(a, b, &T) : measurePair(a, b, T, false);
-    candidate.score = evidenceOf(candidate.quality).score();
+    candidate.quality = many ? refinePose(pair, &T) : measurePair(pair, T, false);
+    candidate.score = logOdds(candidate.quality, options.same_pose_probability);
   }
 }
 /// Refines the candidates finely, keeps those that differ, and decides.
-PairAlignment decided(const Part& a, const Part& b, const PairAlignmentOptions& options,
-                      std::vector<Candidate> candidates, base::JobControl& control)
+PairAlignment decided(const PartPair& pair, const PairAlignmentOptions& options, std::vector<Candidate> candidates,
+                      base::JobControl& control)
 {
   control.checkCancelled();
-  refine(a, b, true, options.threads, &candidates);
-  candidates = distinctBest(candidates, b, DISTINCT_ROTATION_RAD, DISTINCT_POSITION_RATIO,
+  refine(pair, true, options, &candidates);
+  candidates = distinctBest(candidates, pair.b, DISTINCT_ROTATION_RAD, DISTINCT_POSITION_RATIO,
                             { candidates.size(), candidates.size(), 0 });
   control.checkCancelled();
   PairAlignment result;
   for (const Candidate& candidate : candidates)
     result.candidates.push_back(
         { candidate.proposal.kind, candidate.proposal.T_a_b.cast<double>(), candidate.quality });
-  decide(a, b, options, &result);
+  decide(pair.a, pair.b, options, &result);
   return result;
 }
 }  // namespace
@@ -144,6 +146,7 @@ std::vector<std::string> PairAlignmentOptions::violations() const
   check.inRange("refined_candidates", refined_candidates, 1, 10000);
   check.inRange("min_overlap_ratio", min_overlap_ratio, 0.0, 1.0);
   check.inRange("min_probability", min_probability, 0.0, 1.0);
+  check.inRange("same_pose_probability", same_pose_probability, 0.0, 1.0);
   check.atLeast("threads", threads, 1);
   return check.violations();
 }
@@ -159,14 +162,15 @@ PairAlignment alignPair(const PartialModel& a, const PartialModel& b, const Pair
 PairAlignment alignParts(const Part& a, const Part& b, const PairAlignmentOptions& options, base::JobControl& control)
 {
   control.checkCancelled();
+  const PartPair pair(a, b, options.threads);
   std::vector<Candidate> candidates =
-      distinctBest(coarse(a, b, options), b, SAME_ROTATION_RAD, SAME_POSITION_RATIO, TO_MEASURE);
+      distinctBest(coarse(pair, options), b, SAME_ROTATION_RAD, SAME_POSITION_RATIO, TO_MEASURE);
   control.checkCancelled();
-  refine(a, b, false, options.threads, &candidates);
+  refine(pair, false, options, &candidates);
   const auto refined = static_cast<std::size_t>(options.refined_candidates);
   candidates = distinctBest(candidates, b, SAME_ROTATION_RAD, SAME_POSITION_RATIO,
                             { refined, MOST_REFINED_FACTOR * refined, REFINED_MARGIN });
-  return decided(a, b, options, std::move(candidates), control);
+  return decided(pair, options, std::move(candidates), control);
 }
 
 std::optional<PairAlignment> confirmParts(const Part& a, const Part& b, const std::vector<PairCandidate>& known,
@@ -177,7 +181,7 @@ std::optional<PairAlignment> confirmParts(const Part& a, const Part& b, const st
   std::vector<Candidate> candidates;
   for (const PairCandidate& candidate : known)
     candidates.push_back({ { candidate.kind, candidate.T_a_b.cast<float>() }, 0, {} });
-  PairAlignment again = decided(a, b, options, std::move(candidates), control);
+  PairAlignment again = decided(PartPair(a, b, options.threads), options, std::move(candidates), control);
   if (!again.accepted || !same(again.candidates.front().T_a_b.cast<float>(), known.front().T_a_b.cast<float>(), b,
                                DISTINCT_ROTATION_RAD, DISTINCT_POSITION_RATIO))
     return std::nullopt;

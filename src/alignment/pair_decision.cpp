@@ -4,23 +4,31 @@
 #include <cmath>
 #include <sstream>
 
+#include "object_modelling/alignment/pair_evidence.h"
 #include "pair_measure.h"
 
 namespace object_modelling::alignment
 {
 namespace
 {
-constexpr double MAX_RIVAL_LOGIT = 1.2;  // nearer to the best than this, poses score alike
-// Of two poses of the same two parts, the one where they lie closer is the better by as many logits as patches of the
-// surface that err on their own, times the logarithm of the ratio.
-constexpr double INDEPENDENT_PATCHES = 4;
+constexpr double MAX_RIVAL_LOGIT = 1.2;      // nearer to the best than this, poses score alike
+constexpr double MIN_RIVAL_SHARE = 1e-3;     // of the best one's odds: less does not change a probability
+constexpr double PLAIN = 0.05;               // deviation of the colours of a surface that has no print to speak of
 constexpr double SAME_SHAPE_SPACINGS = 1.5;  // distance of surfaces that are the same
-constexpr double MAX_STRAY_RATIO = 0.04;     // of the points that may be off such a surface
-constexpr double SAME_COLOR = 0.15;          // rms difference of colours that are the same, with noise and light
+constexpr double MAX_STRAY_RATIO = 0.04;     // of the points that may be where nothing is if such a surface is
+constexpr double MAX_UNKNOWN_RATIO = 0.15;   // of those that may be beside it where nobody looked
+constexpr double SAME_COLOR = 0.1;           // rms difference of colours that are the same, with noise and light
+constexpr double MAX_LOG_ODDS = 500;         // exponents beyond overflow
+constexpr double ASKED_PROBABILITY = 0.1;    // of the same pose: below it no such pose is taken unasked
 
 const std::string REMEDY =
     ": if both sessions are of one object, check their masks and support planes, or record more of what they have in "
     "common";
+
+const std::string NOT_TURNED =
+    "the two fit best as if the object had not been turned over in between: turn it over and record again, or, if it "
+    "lay "
+    "as before, accept that pose or say that such sessions exist (same_pose_probability 0.5)";
 
 std::string percent(double ratio)
 {
@@ -43,14 +51,19 @@ std::string whyUnlikely(const PairQuality& quality, const PairAlignmentOptions& 
   if (quality.overlap_ratio < options.min_overlap_ratio)
     return "overlap " + percent(quality.overlap_ratio) + " below " + percent(options.min_overlap_ratio) +
            ": record the object so that more of it is seen in both sessions";
-  const Evidence evidence = evidenceOf(quality);
-  const double color = evidence.color + evidence.light;
-  const double worst = std::min({ evidence.space, evidence.fit, evidence.contact, color });
-  if (worst == color)
+  const FeatureVector evidence = contributions(quality);
+  const auto of = [&](Feature feature) { return evidence[static_cast<std::size_t>(feature)]; };
+  const double color = of(Feature::PRINT) + of(Feature::COLOR) + of(Feature::EDGES);
+  const double space = of(Feature::SPACE) + of(Feature::THROUGH);
+  const double turn = turnPrior(quality, options.same_pose_probability);
+  const double worst = std::min({ space, of(Feature::CONTACT), color, turn });
+  if (worst == turn && turn < 0)
+    return NOT_TURNED;
+  if (worst == color && color < 0)
     return "colours disagree (correlation " + percent(quality.color_agreement) + " over the common surface)" + REMEDY;
-  if (worst == evidence.contact)
+  if (worst == of(Feature::CONTACT))
     return "the object would be " + millimetres(quality.contact_gap_m) + " off what it stood on" + REMEDY;
-  if (worst == evidence.space)
+  if (worst == space && quality.fsv_ratio > 0)
     return percent(quality.fsv_ratio) + " of the surface would be where the other session saw that nothing is" + REMEDY;
   return "surfaces are " + millimetres(quality.rmse_m) + " apart" + REMEDY;
 }
@@ -58,15 +71,19 @@ std::string whyUnlikely(const PairQuality& quality, const PairAlignmentOptions& 
 /// How far a with b placed by `rival` is from making the same object as with b placed by `best`.
 struct Difference
 {
-  double stray_ratio = 0;  ///< of the points of one that are off the other
+  double stray_ratio = 0;    ///< of the points of one, where views look through that would not if the other were right
+  double unknown_ratio = 0;  ///< of those that are off the other where nobody looked
   double color_rms = 0;
+
+  bool sameShape() const { return stray_ratio <= MAX_STRAY_RATIO && unknown_ratio <= MAX_UNKNOWN_RATIO; }
+  bool sameObject() const { return sameShape() && color_rms <= SAME_COLOR; }
 };
 
 /// One way: b placed by `rival` against a with b placed by `best`.
 Difference strayOf(const Part& a, const Part& b, const Eigen::Isometry3f& best, const Eigen::Isometry3f& rival)
 {
   const auto reach_m = static_cast<float>(SAME_SHAPE_SPACINGS * std::max(a.model.spacing_m, b.model.spacing_m));
-  double stray = 0, squares = 0, count = 0;
+  double stray = 0, unknown = 0, squares = 0, count = 0;
   const Eigen::Isometry3f T_b_rival = best.inverse() * rival;
   const auto look_up =
       [&](const Part& part, const Eigen::Vector3f& p, const Eigen::Vector3f& n, const Eigen::Vector3f& color)
@@ -89,29 +106,97 @@ Difference strayOf(const Part& a, const Part& b, const Eigen::Isometry3f& best, 
     const Eigen::Vector3f& color = b.blurred_colors[i];
     const bool found =
         look_up(b, T_b_rival * p, T_b_rival.linear() * n, color) || look_up(a, rival * p, rival.linear() * n, color);
-    stray += !found;
+    if (found)
+      continue;
+    const bool through = seenThrough(a.model.views, rival * p) || seenThrough(b.model.views, T_b_rival * p);
+    (through ? stray : unknown) += 1;
   }
-  return { stray / static_cast<double>(b.many.size()), count > 0 ? std::sqrt(squares / count) : 0 };
+  const auto all = static_cast<double>(std::max<std::size_t>(1, b.many.size()));
+  return { stray / all, unknown / all, count > 0 ? std::sqrt(squares / count) : 0 };
 }
 
 /// Where the object is symmetric, the one that shows more of it has all that the other shows.
 Difference differenceOf(const Part& a, const Part& b, const Eigen::Isometry3f& best, const Eigen::Isometry3f& rival)
 {
   const Difference one = strayOf(a, b, best, rival), other = strayOf(a, b, rival, best);
-  return { std::min(one.stray_ratio, other.stray_ratio), std::max(one.color_rms, other.color_rms) };
+  return { std::min(one.stray_ratio, other.stray_ratio), std::min(one.unknown_ratio, other.unknown_ratio),
+           std::max(one.color_rms, other.color_rms) };
+}
+
+/// Sets the probability of each candidate against all the others and none being right; returns that of any of them.
+double weighUp(const PairAlignmentOptions& options, std::vector<PairCandidate>* candidates)
+{
+  double sum = 0;
+  for (PairCandidate& candidate : *candidates)
+  {
+    candidate.quality.probability =
+        std::exp(std::min(logOdds(candidate.quality, options.same_pose_probability), MAX_LOG_ODDS));
+    sum += candidate.quality.probability;
+  }
+  for (PairCandidate& candidate : *candidates)
+    candidate.quality.probability /= 1 + sum;
+  return sum / (1 + sum);
+}
+
+/// The most probable pose that makes another object than the best one.
+struct Rival
+{
+  const PairCandidate* candidate = nullptr;  ///< null: there is none to speak of
+  Difference difference;
+};
+
+/// Those that make the same object as the best one have one probability in common, that of all of them.
+Rival joinEquivalent(const Part& a, const Part& b, std::vector<PairCandidate>* candidates)
+{
+  PairCandidate& best = candidates->front();
+  double together = best.quality.probability;
+  std::vector<PairCandidate*> equivalent = { &best };
+  Rival rival;
+  for (std::size_t i = 1; i < candidates->size(); ++i)
+  {
+    PairCandidate& other = (*candidates)[i];
+    if (other.quality.probability < MIN_RIVAL_SHARE * best.quality.probability)
+      continue;
+    const Difference difference = differenceOf(a, b, best.T_a_b.cast<float>(), other.T_a_b.cast<float>());
+    if (difference.sameObject())
+    {
+      together += other.quality.probability;
+      equivalent.push_back(&other);
+    }
+    else if (!rival.candidate || other.quality.probability > rival.candidate->quality.probability)
+      rival = { &other, difference };
+  }
+  for (PairCandidate* pose : equivalent)
+    pose->quality.probability = together;
+  return rival;
 }
 
 double degreesBetween(const Eigen::Isometry3d& x, const Eigen::Isometry3d& y)
 {
   return geometry::rotationAngle_rad(x.inverse() * y) * 180 / M_PI;
 }
+
+/// Why the best pose is not certain although one of two is.
+std::string whyAmbiguous(const PairCandidate& best, const PairCandidate& rival, const Difference& difference)
+{
+  const std::string two =
+      "two poses " + std::to_string(std::lround(degreesBetween(best.T_a_b, rival.T_a_b))) + " deg apart score alike";
+  if (!difference.sameShape())
+    return two + ", and " + percent(difference.stray_ratio + difference.unknown_ratio) +
+           " of the surface would lie elsewhere: record another view that joins the two";
+  if (best.quality.texture < PLAIN)
+    return two +
+           ": the shape is symmetric, and the sides that both sessions see are plain: lean the object so that a "
+           "printed face is seen in both";
+  return two +
+         ": the shape is symmetric, and the print that both sessions see is alike in both: record the object so "
+         "that a side that tells them apart is seen in both";
+}
 }  // namespace
 
 bool scoreAlike(const PairQuality& best, const PairQuality& rival)
 {
-  const double closer = std::log(std::max(rival.rmse_m, 1e-6) / std::max(best.rmse_m, 1e-6));
-  const double ahead = evidenceOf(best).score() - evidenceOf(rival).score();
-  return ahead + INDEPENDENT_PATCHES * std::max(0.0, closer) <= MAX_RIVAL_LOGIT;
+  return logOdds(best, 0.5) - logOdds(rival, 0.5) <= MAX_RIVAL_LOGIT;
 }
 
 void decide(const Part& a, const Part& b, const PairAlignmentOptions& options, PairAlignment* result)
@@ -123,34 +208,19 @@ void decide(const Part& a, const Part& b, const PairAlignmentOptions& options, P
                      " of the surfaces together with the object on what it stood on" + REMEDY;
     return;
   }
+  const double any = weighUp(options, &result->candidates);
+  const Rival rival = joinEquivalent(a, b, &result->candidates);
   const PairCandidate& best = result->candidates.front();
-  if (best.quality.overlap_ratio < options.min_overlap_ratio || best.quality.probability < options.min_probability)
-  {
+  if (best.quality.overlap_ratio < options.min_overlap_ratio)
     result->reason = whyUnlikely(best.quality, options);
-    return;
-  }
-  for (std::size_t i = 1; i < result->candidates.size(); ++i)
-  {
-    const PairCandidate& rival = result->candidates[i];
-    if (!scoreAlike(best.quality, rival.quality))
-      continue;
-    const Difference difference = differenceOf(a, b, best.T_a_b.cast<float>(), rival.T_a_b.cast<float>());
-    const std::string apart = std::to_string(std::lround(degreesBetween(best.T_a_b, rival.T_a_b))) + " deg";
-    if (difference.stray_ratio > MAX_STRAY_RATIO)
-    {
-      result->reason = "two poses " + apart + " apart score alike, and " + percent(difference.stray_ratio) +
-                       " of the surface would lie elsewhere: record another view that joins the two";
-      return;
-    }
-    if (difference.color_rms > SAME_COLOR)
-    {
-      result->reason = "two poses " + apart +
-                       " apart score alike: the shape is symmetric, and the texture that both "
-                       "sessions saw does not decide";
-      return;
-    }
-  }
-  result->accepted = true;
+  else if (best.quality.probability < options.min_probability)
+    result->reason = rival.candidate && any >= options.min_probability
+                         ? whyAmbiguous(best, *rival.candidate, rival.difference)
+                         : whyUnlikely(best.quality, options);
+  else if (saysNotTurned(best.quality) && options.same_pose_probability < ASKED_PROBABILITY)
+    result->reason = NOT_TURNED;
+  else
+    result->accepted = true;
 }
 
 }  // namespace object_modelling::alignment

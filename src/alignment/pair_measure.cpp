@@ -12,14 +12,30 @@ namespace
 {
 constexpr float SAME_SIDE_COSINE = 0.7F;
 constexpr double SAME_SURFACE_SPACINGS = 1.7;
+constexpr float MAX_FEATURE_DISTANCE_M = 0.004F, MAX_FEATURE_RATIO = 0.08F;  // of the radius
 constexpr float SPACE_SIGMAS = 3;
 constexpr float SPACE_MARGIN_M = 0.004F;  // registration and calibration, beyond noise
+
+/// Sums for the correlation of the slopes of the colours.
+struct EdgeComparison
+{
+  double aa = 0, bb = 0, ab = 0;
+
+  void add(const ColorGradient& of_a, const ColorGradient& of_b)
+  {
+    aa += of_a.squaredNorm();
+    bb += of_b.squaredNorm();
+    ab += of_a.cwiseProduct(of_b).sum();
+  }
+  double strength() const { return std::sqrt(aa * bb); }
+};
 
 /// What one part's points meet in the other.
 struct Meeting
 {
   double total = 0, same = 0, squares = 0;  // squares: of the point-to-plane distances, m^2
   double front = 0, upheld = 0;             // points that the other's views look through, or see
+  EdgeComparison edges;
 };
 
 /// Whether the views see a point in front of what they measured, or on it: most of them decide, so that the noise of a
@@ -77,11 +93,43 @@ Meeting meet(const Part& fixed, const Part& moving, const Eigen::Isometry3f& T_f
       colors->add(here, there, moving.model.normals[i]);
     else
       colors->add(there, here, n);
+    if (many)
+      meeting.edges.add(static_cast<float>(fixed.slope_length_m) * fixed.blurred_gradients[j],
+                        static_cast<float>(moving.slope_length_m) * moving.blurred_gradients[i] * R.transpose());
   }
   return meeting;
 }
 
+/// Angle between what was up in either session, as the object lies; negative where one of them is not known.
+double turn_rad(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_b)
+{
+  if (!a.model.support_plane || !b.model.support_plane)
+    return -1;
+  const Eigen::Vector3d up_b = T_a_b.linear().cast<double>() * b.model.support_plane->normal;
+  return std::acos(std::clamp(a.model.support_plane->normal.dot(up_b), -1.0, 1.0));
+}
+
+void compareEdges(const Meeting& b_on_a, const Meeting& a_on_b, PairQuality* quality)
+{
+  EdgeComparison both = b_on_a.edges;
+  both.aa += a_on_b.edges.aa;
+  both.bb += a_on_b.edges.bb;
+  both.ab += a_on_b.edges.ab;
+  const double same = b_on_a.same + a_on_b.same;
+  if (both.strength() <= 1e-9 * same)
+    return;
+  quality->edge_agreement = both.ab / both.strength();
+  quality->edge_strength = std::sqrt(both.strength() / same);
+}
+
 }  // namespace
+
+bool seenThrough(const std::vector<SpaceView>& views, const Eigen::Vector3f& p)
+{
+  Meeting meeting;
+  lookAt(views, p, &meeting);
+  return meeting.front > 0;
+}
 
 double coarseOverlap(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_b)
 {
@@ -98,8 +146,9 @@ double coarseOverlap(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_
   return static_cast<double>(same) / static_cast<double>(b.few.size());
 }
 
-PairQuality measurePair(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_b, bool many)
+PairQuality measurePair(const PartPair& pair, const Eigen::Isometry3f& T_a_b, bool many)
 {
+  const Part &a = pair.a, &b = pair.b;
   ColorComparison colors;
   const Meeting b_on_a = meet(a, b, T_a_b, many, false, &colors);
   const Meeting a_on_b = meet(b, a, T_a_b.inverse(), many, true, &colors);
@@ -114,40 +163,13 @@ PairQuality measurePair(const Part& a, const Part& b, const Eigen::Isometry3f& T
   quality.color_agreement = compared.agreement;
   quality.texture = compared.texture;
   quality.light_variance = compared.light_variance;
-  quality.probability = 1 / (1 + std::exp(-evidenceOf(quality).logit()));
+  quality.foot_m = std::max(a.foot_m, b.foot_m);
+  quality.turn_rad = turn_rad(a, b, T_a_b);
+  quality.roughness_m = std::hypot(a.roughness_m, b.roughness_m);
+  compareEdges(b_on_a, a_on_b, &quality);
+  const float reach_m = std::min(MAX_FEATURE_DISTANCE_M, MAX_FEATURE_RATIO * std::min(a.radius_m, b.radius_m));
+  quality.features_upheld = static_cast<double>(upholding(pair.matches, T_a_b, reach_m).size());
   return quality;
-}
-
-Evidence evidenceOf(const PairQuality& quality)
-{
-  // Rounded from logistic regression on the candidates of simulated pairs (docs/alignment.md).
-  constexpr double PRIOR = 3.5, ENOUGH_OVERLAP = 0.3, OVERLAP = 8, SPACE = -90, FIT_PER_M = -1200;
-  constexpr double CONTACT_PER_M = -300, FREE_GAP_M = 0.004, COLOR_DIFFERENCE = -100, COLOR_AGREEMENT = 13;
-  constexpr double MAX_VARIANCE = 0.06;
-  constexpr double FREE_COLOR_DIFFERENCE = 0.01;  // what another light makes of the same surface
-  Evidence evidence;
-  evidence.prior = PRIOR;
-  // A third of the surface in common proves as much as all of it.
-  evidence.overlap = OVERLAP * (std::min(quality.overlap_ratio, ENOUGH_OVERLAP) - ENOUGH_OVERLAP);
-  evidence.space = SPACE * quality.fsv_ratio;
-  evidence.fit = FIT_PER_M * quality.rmse_m;
-  // Near the table nothing is seen of a round side, so that a part may seem to float a little.
-  evidence.contact = CONTACT_PER_M * std::max(0.0, quality.contact_gap_m - FREE_GAP_M);
-  // Print that differs counts more than print that agrees: labels look alike from afar. Strong print tells poses apart
-  // all the better, but light changes it in proportion: whether the pose is right at all is not for it to say.
-  const auto color_evidence = [&](double variance, double light_variance)
-  {
-    const double difference = variance * (1 - quality.color_agreement) - light_variance;
-    return COLOR_DIFFERENCE * std::max(0.0, difference - FREE_COLOR_DIFFERENCE) +
-           COLOR_AGREEMENT * variance * quality.color_agreement;
-  };
-  const double variance = quality.texture * quality.texture;
-  const double counted = std::min(variance, MAX_VARIANCE);
-  evidence.color = color_evidence(counted, 0);
-  if (variance > 0)
-    evidence.light = color_evidence(counted, quality.light_variance * counted / variance) - evidence.color;
-  evidence.strong_color = color_evidence(variance, 0) - evidence.color;
-  return evidence;
 }
 
 }  // namespace object_modelling::alignment

@@ -2,8 +2,9 @@
 
 namespace object_modelling::alignment
 {
-PairQuality refinePose(const Part& a, const Part& b, Eigen::Isometry3f* T_a_b)
+PairQuality refinePose(const PartPair& pair, Eigen::Isometry3f* T_a_b)
 {
+  const Part &a = pair.a, &b = pair.b;
   PairIcpOptions icp;
   icp.coarse = false;
   icp.gate_m = 2.5 * a.model.spacing_m;
@@ -14,7 +15,7 @@ PairQuality refinePose(const Part& a, const Part& b, Eigen::Isometry3f* T_a_b)
   icp.color = ColorDetail::SHARP;
   icp.gate_m = icp.last_gate_m;
   *T_a_b = alignSurfaces(a, b, *T_a_b, icp);
-  return measurePair(a, b, *T_a_b, true);
+  return measurePair(pair, *T_a_b, true);
 }
 
 }  // namespace object_modelling::alignment

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "surface_pair.h"
+#include "point_matches.h"
 
 namespace object_modelling::alignment
 {
@@ -15,7 +15,7 @@ struct Proposal
 
 /// Poses by three matches of local features that agree (SIFT on the object in both parts' views), each found from a
 /// seeded sample and upheld by others.
-std::vector<Proposal> proposeByFeatures(const Part& a, const Part& b, std::uint64_t seed, int threads);
+std::vector<Proposal> proposeByFeatures(const PartPair& pair, std::uint64_t seed);
 
 /// Faces of b's convex hull, merged, that it can stand on, brought onto a's support plane, at rotations about its
 /// normal; and the other way round.

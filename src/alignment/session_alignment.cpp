@@ -118,12 +118,13 @@ std::string nameOf(Decision decision)
   return "automatic";
 }
 
-AlignmentResult placeSessions(const std::vector<PartialModel>& parts, std::vector<AlignmentEdge> edges)
+AlignmentResult placeSessions(const std::vector<PartialModel>& parts, double min_probability,
+                              std::vector<AlignmentEdge> edges)
 {
   AlignmentResult result;
   const std::vector<std::string> ids = idsOf(parts);
   result.edges = std::move(edges);
-  result.placements = placeByEdges(parts, &result.edges);
+  result.placements = placeByEdges(parts, min_probability, &result.edges);
   for (const std::string& id : ids)
     if (std::none_of(result.placements.begin(), result.placements.end(),
                      [&](const SessionPlacement& placed) { return placed.session_id == id; }))
@@ -165,7 +166,7 @@ AlignmentResult alignSessions(const std::vector<PartialModel>& parts, const std:
       control.report("align", edges.size(), pairs);
     }
   control.report("align", pairs, pairs);
-  return placeSessions(parts, std::move(edges));
+  return placeSessions(parts, options.min_probability, std::move(edges));
 }
 
 }  // namespace object_modelling::alignment

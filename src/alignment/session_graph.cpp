@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 
 #include "object_modelling/geometry/transform.h"
-#include "pair_decision.h"
 
 namespace object_modelling::alignment
 {
@@ -15,68 +13,11 @@ namespace
 {
 constexpr double MAX_CYCLE_ROTATION_RAD = 0.09;   // 5 deg ...
 constexpr double MAX_CYCLE_TRANSLATION_M = 0.01;  // ... of the object
-constexpr double CERTAIN_PROBABILITY = 0.95;      // tree edges above it stand against one edge that contradicts them
-
-struct Link
-{
-  int edge, to;
-  Eigen::Isometry3d T_from_to;
-};
-
-using Graph = std::vector<std::vector<Link>>;
-
-/// A way through the tree: what is at its end in the frame of its start, and the least certain edge on it.
-struct Path
-{
-  Eigen::Isometry3d T_from_to = Eigen::Isometry3d::Identity();
-  int weakest_edge = -1;
-};
-
-class Tree
-{
-public:
-  Tree(int count, const std::vector<AlignmentEdge>& edges) : edges_(edges), graph_(count) {}
-
-  void add(int edge, int a, int b)
-  {
-    const Eigen::Isometry3d& T_a_b = edges_[edge].best()->T_a_b;
-    graph_[a].push_back({ edge, b, T_a_b });
-    graph_[b].push_back({ edge, a, T_a_b.inverse() });
-  }
-  void remove(int edge)
-  {
-    for (std::vector<Link>& links : graph_)
-      links.erase(std::remove_if(links.begin(), links.end(), [edge](const Link& link) { return link.edge == edge; }),
-                  links.end());
-  }
-  std::optional<Path> path(int from, int to, int came_from = -1) const
-  {
-    if (from == to)
-      return Path{};
-    for (const Link& link : graph_[from])
-    {
-      if (link.to == came_from)
-        continue;
-      std::optional<Path> rest = path(link.to, to, from);
-      if (!rest)
-        continue;
-      rest->T_from_to = link.T_from_to * rest->T_from_to;
-      if (rest->weakest_edge < 0 || probability(link.edge) < probability(rest->weakest_edge))
-        rest->weakest_edge = link.edge;
-      return rest;
-    }
-    return std::nullopt;
-  }
-  /// A person's word is certain.
-  double probability(int edge) const
-  {
-    return edges_[edge].decision == Decision::ACCEPTED ? 1.0 : edges_[edge].best()->quality.probability;
-  }
-
-private:
-  const std::vector<AlignmentEdge>& edges_;
-  Graph graph_;
-};
+constexpr double CHANCE = 0.05;                   // that poses of two edges agree though they are wrong
+constexpr double CERTAIN = 1e-6;                  // left to doubt by a person's word
+constexpr double DOUBT = 3e-3;                    // left to it at least by what was found
+constexpr double REFUSED_RATIO = 0.9;             // of what is needed: at most, of an edge that was refused
+constexpr std::size_t TRIED_STARTS = 3;           // poses of each edge that a placement begins with
 
 /// By how much two poses of one part differ.
 struct Off
@@ -91,74 +32,371 @@ struct Off
   }
 };
 
-Off offBetween(const Eigen::Isometry3d& T_a_b, const Eigen::Isometry3d& other, const PartialModel& b)
+/// A pose of a session, by the edge that it comes from.
+struct Pose
 {
-  const Eigen::Vector3d centre = b.centre().cast<double>();
-  return { geometry::rotationAngle_rad(T_a_b.inverse() * other), (T_a_b * centre - other * centre).norm() };
+  Eigen::Isometry3d T_reference_session = Eigen::Isometry3d::Identity();
+  int edge = -1;
+  double probability = 1;  ///< by that edge alone
+};
+
+using Placement = std::map<int, Pose>;  ///< by session
+
+class Graph
+{
+public:
+  Graph(const std::vector<PartialModel>& parts, double min_probability, const std::vector<AlignmentEdge>& edges)
+      : edges_(edges), refused_probability_(REFUSED_RATIO * min_probability)
+  {
+    std::map<std::string, int> index_of;
+    for (const PartialModel& part : parts)
+    {
+      index_of[part.session_id] = static_cast<int>(centres_.size());
+      centres_.emplace_back(part.centre().cast<double>());
+    }
+    for (const AlignmentEdge& edge : edges)
+      ends_.emplace_back(index_of.at(edge.session_a), index_of.at(edge.session_b));
+  }
+
+  int sessions() const { return static_cast<int>(centres_.size()); }
+  int edges() const { return static_cast<int>(edges_.size()); }
+  const std::pair<int, int>& ends(int edge) const { return ends_[edge]; }
+  bool usable(int edge) const { return edges_[edge].best() && edges_[edge].decision != Decision::REFUSED; }
+
+  double probability(int edge, std::size_t candidate) const
+  {
+    if (edges_[edge].decision == Decision::ACCEPTED)
+      return candidate == 0 ? 1 - CERTAIN : 0;
+    const double found = edges_[edge].candidates[candidate].quality.probability;
+    return std::min(found, edges_[edge].accepted ? 1 - DOUBT : refused_probability_);
+  }
+
+  /// Pose of session `to` by an edge, from that of the session at its other end.
+  Eigen::Isometry3d along(int edge, std::size_t candidate, int to, const Eigen::Isometry3d& T_reference_from) const
+  {
+    const Eigen::Isometry3d& T_a_b = edges_[edge].candidates[candidate].T_a_b;
+    return T_reference_from * (to == ends_[edge].second ? T_a_b : T_a_b.inverse());
+  }
+
+  Off offBetween(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other, int session) const
+  {
+    return { geometry::rotationAngle_rad(one.inverse() * other),
+             (one * centres_[session] - other * centres_[session]).norm() };
+  }
+
+  /// The edge's most probable pose that is the one given; none if there is none.
+  std::optional<std::size_t> agreeing(int edge, const Placement& placed) const
+  {
+    const auto& [a, b] = ends_[edge];
+    return agreeing(edge, b, placed.at(b).T_reference_session, placed.at(a));
+  }
+  std::optional<std::size_t> agreeing(int edge, int to, const Eigen::Isometry3d& T_reference_to, const Pose& from) const
+  {
+    std::optional<std::size_t> best;
+    for (std::size_t k = 0; k < candidates(edge); ++k)
+      if ((!best || probability(edge, k) > probability(edge, *best)) &&
+          offBetween(along(edge, k, to, from.T_reference_session), T_reference_to, to).small())
+        best = k;
+    return best && probability(edge, *best) / CHANCE > doubt(edge) ? best : std::nullopt;
+  }
+  /// By how much an edge's best pose contradicts the placement.
+  Off contradiction(int edge, const Placement& placed) const
+  {
+    const auto& [a, b] = ends_[edge];
+    return offBetween(along(edge, 0, b, placed.at(a).T_reference_session), placed.at(b).T_reference_session, b);
+  }
+
+  double doubt(int edge) const { return 1 - probability(edge, 0); }
+
+  /// What an edge makes of a pose, against chance.
+  double support(int edge, const std::optional<std::size_t>& agreeing) const
+  {
+    return agreeing ? probability(edge, *agreeing) / CHANCE : doubt(edge);
+  }
+  std::size_t candidates(int edge) const
+  {
+    const std::size_t all = edges_[edge].candidates.size();
+    return edges_[edge].decision == Decision::ACCEPTED ? std::min<std::size_t>(all, 1) : all;
+  }
+  bool holds(int edge, const Placement& placed) const
+  {
+    return placed.count(ends_[edge].first) && placed.count(ends_[edge].second);
+  }
+  int otherEnd(int edge, int session) const
+  {
+    return ends_[edge].first == session ? ends_[edge].second : ends_[edge].first;
+  }
+  /// Usable edges between a session and those placed.
+  std::vector<int> edgesTo(int session, const Placement& placed) const
+  {
+    std::vector<int> result;
+    for (int edge = 0; edge < edges(); ++edge)
+      if (usable(edge) && (ends_[edge].first == session || ends_[edge].second == session) &&
+          placed.count(otherEnd(edge, session)))
+        result.push_back(edge);
+    return result;
+  }
+
+private:
+  const std::vector<AlignmentEdge>& edges_;
+  double refused_probability_;
+  std::vector<Eigen::Vector3d> centres_;
+  std::vector<std::pair<int, int>> ends_;
+};
+
+/// What the edges to the placed sessions make of a pose of one session.
+struct Hypothesis
+{
+  Pose pose;
+  std::vector<double> support;  ///< per edge
+  double odds = 0;
+};
+
+std::vector<Hypothesis> hypothesesOf(const Graph& graph, int session, const std::vector<int>& edges,
+                                     const Placement& placed)
+{
+  std::vector<Hypothesis> result;
+  for (const int edge : edges)
+    for (std::size_t k = 0; k < graph.candidates(edge); ++k)
+    {
+      const Pose& from = placed.at(graph.otherEnd(edge, session));
+      const Pose pose{ graph.along(edge, k, session, from.T_reference_session), edge, graph.probability(edge, k) };
+      const auto known = std::find_if(
+          result.begin(), result.end(),
+          [&](const Hypothesis& other)
+          { return graph.offBetween(other.pose.T_reference_session, pose.T_reference_session, session).small(); });
+      if (known == result.end())
+        result.push_back({ pose, {} });
+      else if (pose.probability > known->pose.probability)
+        known->pose = pose;
+    }
+  for (Hypothesis& hypothesis : result)
+  {
+    // Of the edges that agree, one brings the session here; the others might have agreed by chance.
+    hypothesis.odds = CHANCE;
+    for (const int edge : edges)
+    {
+      const Pose& from = placed.at(graph.otherEnd(edge, session));
+      const std::optional<std::size_t> agreeing =
+          graph.agreeing(edge, session, hypothesis.pose.T_reference_session, from);
+      hypothesis.support.push_back(graph.support(edge, agreeing));
+      hypothesis.odds *= hypothesis.support.back();
+    }
+  }
+  return result;
 }
 
-/// Whether one of the poses that the edge holds for as good as its best is the one given.
-bool agrees(const AlignmentEdge& edge, const Eigen::Isometry3d& T_a_b, const PartialModel& b)
+struct Choice
 {
-  return std::any_of(
-      edge.candidates.begin(), edge.candidates.end(),
-      [&](const PairCandidate& candidate)
-      { return scoreAlike(edge.best()->quality, candidate.quality) && offBetween(T_a_b, candidate.T_a_b, b).small(); });
+  Pose pose;
+  double probability = 0;  ///< by all edges to the placed sessions, against other poses and against none
+};
+
+/// The most probable pose of a session. Poses that every edge holds for as good make the same object.
+Choice bestPose(const Graph& graph, int session, const Placement& placed)
+{
+  const std::vector<int> edges = graph.edgesTo(session, placed);
+  const std::vector<Hypothesis> hypotheses = hypothesesOf(graph, session, edges, placed);
+  if (hypotheses.empty())
+    return {};
+  const Hypothesis& best = *std::max_element(hypotheses.begin(), hypotheses.end(),
+                                             [](const Hypothesis& x, const Hypothesis& y) { return x.odds < y.odds; });
+  double sum = best.odds, none = 1;
+  for (const Hypothesis& other : hypotheses)
+    if (other.support != best.support)
+      sum += other.odds;
+  for (const int edge : edges)
+    none *= graph.doubt(edge);
+  return { best.pose, best.odds / (sum + none) };
+}
+
+/// Places one session after the other, the most probable first.
+void complete(const Graph& graph, double min_probability, Placement* placed)
+{
+  while (true)
+  {
+    Choice best;
+    int which = -1;
+    for (int session = 0; session < graph.sessions(); ++session)
+    {
+      if (placed->count(session))
+        continue;
+      const Choice choice = bestPose(graph, session, *placed);
+      if (choice.probability > best.probability)
+      {
+        best = choice;
+        which = session;
+      }
+    }
+    if (which < 0 || best.probability < min_probability)
+      return;
+    placed->emplace(which, best.pose);
+  }
+}
+
+/// Logarithm of the odds of a placement, up to what all placements share.
+double logOddsOf(const Graph& graph, const Placement& placed)
+{
+  double sum = (static_cast<double>(placed.size()) - 1) * std::log(CHANCE);
+  for (int edge = 0; edge < graph.edges(); ++edge)
+  {
+    if (!graph.usable(edge))
+      continue;
+    sum += std::log(graph.holds(edge, placed) ? graph.support(edge, graph.agreeing(edge, placed)) : graph.doubt(edge));
+  }
+  return sum;
+}
+
+/// Takes out, the least probable first, what the others do not bear out, and puts the rest where they say.
+void settle(const Graph& graph, double min_probability, Placement* placed)
+{
+  while (placed->size() > 2)
+  {
+    int least = -1;
+    double least_probability = min_probability;
+    for (const auto& [session, pose] : *placed)
+    {
+      Placement others = *placed;
+      others.erase(session);
+      const Choice choice = bestPose(graph, session, others);
+      const bool stays = graph.offBetween(choice.pose.T_reference_session, pose.T_reference_session, session).small();
+      if ((stays ? choice.probability : 0) < least_probability)
+      {
+        least = session;
+        least_probability = stays ? choice.probability : 0;
+      }
+    }
+    if (least < 0)
+      return;
+    placed->erase(least);
+  }
+}
+
+Placement bestPlacement(const Graph& graph, double min_probability)
+{
+  Placement best;
+  double best_log_odds = 0;
+  for (int edge = 0; edge < graph.edges(); ++edge)
+    for (std::size_t k = 0; graph.usable(edge) && k < std::min(TRIED_STARTS, graph.candidates(edge)); ++k)
+    {
+      const auto [a, b] = graph.ends(edge);
+      Placement placed = { { a, {} } };
+      placed[b] = { graph.along(edge, k, b, Eigen::Isometry3d::Identity()), edge, graph.probability(edge, k) };
+      complete(graph, min_probability, &placed);
+      settle(graph, min_probability, &placed);
+      if (placed.size() == 2 && graph.probability(edge, k) < min_probability)
+        continue;
+      const double log_odds = logOddsOf(graph, placed);
+      if (best.empty() || log_odds > best_log_odds)
+      {
+        best = placed;
+        best_log_odds = log_odds;
+      }
+    }
+  return best;
+}
+
+/// The maximum spanning tree on the probability, of the edges that agree (Kruskal 1956).
+std::vector<int> treeOf(const Graph& graph, const Placement& placed)
+{
+  std::vector<int> order, tree;
+  for (int edge = 0; edge < graph.edges(); ++edge)
+    if (graph.usable(edge) && graph.holds(edge, placed) && graph.agreeing(edge, placed))
+      order.push_back(edge);
+  const auto probability = [&](int edge) { return graph.probability(edge, *graph.agreeing(edge, placed)); };
+  std::stable_sort(order.begin(), order.end(), [&](int x, int y) { return probability(x) > probability(y); });
+  std::map<int, int> component;
+  for (const auto& [session, pose] : placed)
+    component[session] = session;
+  for (const int edge : order)
+  {
+    const int from = component[graph.ends(edge).first], to = component[graph.ends(edge).second];
+    if (from == to)
+      continue;
+    tree.push_back(edge);
+    for (auto& [session, of] : component)
+      if (of == from)
+        of = to;
+  }
+  return tree;
+}
+
+/// The sessions that the tree connects to the first one, in its frame.
+Placement placedBy(const Graph& graph, const std::vector<int>& tree, const Placement& near)
+{
+  Placement placed;
+  if (near.empty())
+    return placed;
+  placed[near.begin()->first] = {};
+  for (bool grows = true; grows;)
+  {
+    grows = false;
+    for (const int edge : tree)
+    {
+      const auto& [a, b] = graph.ends(edge);
+      if (placed.count(a) == placed.count(b))
+        continue;
+      const int to = placed.count(a) ? b : a;
+      const std::size_t candidate = *graph.agreeing(edge, near);
+      placed[to] = { graph.along(edge, candidate, to, placed.at(graph.otherEnd(edge, to)).T_reference_session), edge,
+                     graph.probability(edge, candidate) };
+      grows = true;
+    }
+  }
+  return placed;
+}
+
+/// Sets what became of each edge. One that agrees by another than its best pose is right by that one.
+void explain(const Graph& graph, const std::vector<int>& tree, const Placement& placed,
+             std::vector<AlignmentEdge>* edges)
+{
+  // First all is looked up: the graph reads the edges that are changed here.
+  std::vector<std::optional<std::size_t>> agreeing(edges->size());
+  std::vector<std::string> contradictions(edges->size());
+  for (int i = 0; i < graph.edges(); ++i)
+    if (graph.usable(i) && graph.holds(i, placed))
+    {
+      agreeing[i] = graph.agreeing(i, placed);
+      contradictions[i] = graph.contradiction(i, placed).text();
+    }
+  for (int i = 0; i < graph.edges(); ++i)
+  {
+    AlignmentEdge& edge = (*edges)[i];
+    edge.used = std::find(tree.begin(), tree.end(), i) != tree.end();
+    if (agreeing[i])
+    {
+      edge.accepted = true;
+      std::rotate(edge.candidates.begin(), edge.candidates.begin() + static_cast<std::ptrdiff_t>(*agreeing[i]),
+                  edge.candidates.begin() + static_cast<std::ptrdiff_t>(*agreeing[i]) + 1);
+    }
+    if (!edge.accepted || !graph.usable(i))
+      continue;
+    const auto is_placed = [&](int session) { return placed.count(session) > 0; };
+    const auto& [a, b] = graph.ends(i);
+    if (agreeing[i] || (!is_placed(a) && !is_placed(b)))
+      edge.reason.clear();
+    else if (graph.holds(i, placed))
+      edge.reason = "left out: contradicts the more certain alignments by " + contradictions[i];
+    else
+      edge.reason = "left out: other alignments contradict it, and none is certain";
+  }
 }
 }  // namespace
 
-std::vector<SessionPlacement> placeByEdges(const std::vector<PartialModel>& parts, std::vector<AlignmentEdge>* edges)
+std::vector<SessionPlacement> placeByEdges(const std::vector<PartialModel>& parts, double min_probability,
+                                           std::vector<AlignmentEdge>* edges)
 {
-  const auto count = static_cast<int>(parts.size());
-  std::map<std::string, int> index_of;
-  for (int i = 0; i < count; ++i)
-    index_of[parts[i].session_id] = i;
-  std::vector<int> order;
-  for (int i = 0; i < static_cast<int>(edges->size()); ++i)
-  {
-    (*edges)[i].used = false;
-    if ((*edges)[i].accepted && (*edges)[i].best())
-      order.push_back(i);
-  }
-  Tree tree(count, *edges);
-  std::stable_sort(order.begin(), order.end(), [&](int x, int y) { return tree.probability(x) > tree.probability(y); });
-  for (const int i : order)
-  {
-    AlignmentEdge& edge = (*edges)[i];
-    edge.reason.clear();  // of an earlier placement
-    const int a = index_of.at(edge.session_a), b = index_of.at(edge.session_b);
-    const std::optional<Path> path = tree.path(a, b);
-    if (!path)
-    {
-      tree.add(i, a, b);
-      edge.used = true;
-      continue;
-    }
-    if (agrees(edge, path->T_from_to, parts[b]))
-      continue;
-    const Off off = offBetween(path->T_from_to, edge.best()->T_a_b, parts[b]);
-    edge.reason = "left out: contradicts the more certain alignments by " + off.text();
-    AlignmentEdge& weakest = (*edges)[path->weakest_edge];
-    if (tree.probability(path->weakest_edge) < CERTAIN_PROBABILITY)
-    {
-      weakest.used = false;
-      weakest.reason = "left out: the cycle through sessions '" + edge.session_a + "' and '" + edge.session_b +
-                       "' does not close, by " + off.text();
-      tree.remove(path->weakest_edge);
-    }
-  }
-
-  std::vector<SessionPlacement> largest;
-  for (int reference = 0; reference < count; ++reference)
-  {
-    std::vector<SessionPlacement> placed = { { parts[reference].session_id, Eigen::Isometry3d::Identity() } };
-    for (int i = 0; i < count; ++i)
-      if (const std::optional<Path> path = i == reference ? std::nullopt : tree.path(reference, i))
-        placed.push_back({ parts[i].session_id, geometry::normalised(path->T_from_to) });
-    if (placed.size() > largest.size())
-      largest = placed;
-  }
-  return largest;
+  const Graph graph(parts, min_probability, *edges);
+  const Placement found = bestPlacement(graph, min_probability);
+  const std::vector<int> tree = treeOf(graph, found);
+  Placement placed = placedBy(graph, tree, found);
+  if (placed.empty() && graph.sessions() > 0)
+    placed[0] = {};
+  explain(graph, tree, placed, edges);
+  std::vector<SessionPlacement> result;
+  for (const auto& [session, pose] : placed)
+    result.push_back({ parts[session].session_id, geometry::normalised(pose.T_reference_session) });
+  return result;
 }
 
 }  // namespace object_modelling::alignment

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 
 #include "object_modelling/geometry/point_index.h"
+#include "support_contact.h"
 
 namespace object_modelling::alignment
 {
@@ -48,6 +49,31 @@ std::vector<Eigen::Vector3f> smoothed(const PartialModel& model, const geometry:
   return result;
 }
 
+/// Median distance of points from the plane through their neighbours: what of two surfaces' distance is noise.
+double roughnessOf(const PartialModel& model, const geometry::PointIndex& tree, double radius_m,
+                   const std::vector<int>& chosen)
+{
+  std::vector<double> distances_m;
+  for (const int i : chosen)
+  {
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    float count = 0;
+    for (const std::uint32_t near : tree.within(model.points[i], radius_m))
+      if (model.normals[near].dot(model.normals[i]) > SAME_SIDE_COSINE)
+      {
+        sum += model.points[near];
+        count += 1;
+      }
+    if (count > 3)
+      distances_m.push_back(std::abs(model.normals[i].dot(sum / count - model.points[i])));
+  }
+  if (distances_m.empty())
+    return 0;
+  const auto middle = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
+  std::nth_element(distances_m.begin(), middle, distances_m.end());
+  return *middle;
+}
+
 /// Least-squares slopes of the colours in the tangent plane (Park, Zhou, Koltun: Colored Point Cloud Registration
 /// Revisited, ICCV 2017, section 4).
 std::vector<ColorGradient> slopes(const PartialModel& model, const geometry::PointIndex& tree,
@@ -86,13 +112,17 @@ Part::Part(const PartialModel& given, int threads)
              std::max(COARSE_CELL_RATIO * given.radius_m(), given.spacing_m / 2)),
       fine(given.points, FINE_REACH_SPACINGS * given.spacing_m, FINE_CELL_SPACINGS * given.spacing_m),
       few(evenly(given.points.size(), FEW)),
-      many(evenly(given.points.size(), MANY))
+      many(evenly(given.points.size(), MANY)),
+      slope_length_m(BLUR_SPACINGS * given.spacing_m)
 {
   const geometry::PointIndex tree(given.points);
-  blurred_colors = smoothed(given, tree, BLUR_SPACINGS * given.spacing_m, threads);
+  roughness_m = roughnessOf(given, tree, slope_length_m, few);
+  blurred_colors = smoothed(given, tree, slope_length_m, threads);
   colors = smoothed(given, tree, SHARP_SPACINGS * given.spacing_m, threads);
-  blurred_gradients = slopes(given, tree, blurred_colors, BLUR_SPACINGS * given.spacing_m, threads);
+  blurred_gradients = slopes(given, tree, blurred_colors, slope_length_m, threads);
   gradients = slopes(given, tree, colors, SLOPE_SPACINGS * given.spacing_m, threads);
+  if (given.support_plane)
+    foot_m = lowestPoint(*this, Eigen::Isometry3f::Identity(), *given.support_plane).height_m;
 }
 
 }  // namespace object_modelling::alignment

@@ -26,6 +26,9 @@ struct Part
   std::vector<Eigen::Vector3f> blurred_colors, colors;
   std::vector<ColorGradient> blurred_gradients, gradients;
   std::vector<int> few, many;  ///< points that stand for all, evenly
+  double slope_length_m;       ///< that the blurred colours and their slopes are taken over
+  double roughness_m;          ///< distance of points from the plane through their neighbours, median
+  double foot_m = 0;           ///< how far the lowest points are above the part's own support plane
 };
 
 /// As alignPair(), of parts that serve for several pairs.

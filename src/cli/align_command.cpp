@@ -77,6 +77,10 @@ void addAlignCommand(CLI::App& app, Command* chosen)
       ->capture_default_str();
   command->add_option("--min-overlap", arguments->options.pair.min_overlap_ratio, "Least share of surface in common")
       ->capture_default_str();
+  command
+      ->add_option("--same-pose-probability", arguments->options.pair.same_pose_probability,
+                   "How often an object is recorded again without being turned over; 0.5: as often as not")
+      ->capture_default_str();
   command->add_option("--seed", arguments->options.pair.seed, "Of the random samples")->capture_default_str();
   command->add_flag("--anew", arguments->anew, "Search every pair again, but for those that a person decided");
   CLI::Option* accept =

@@ -1,6 +1,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "object_modelling/alignment/pair_figures.h"
 #include "report_text.h"
 
 namespace object_modelling::cli
@@ -19,17 +20,10 @@ nlohmann::json toJson(const Eigen::Isometry3d& T)
 
 nlohmann::json toJson(const alignment::PairCandidate& candidate)
 {
-  const alignment::PairQuality& quality = candidate.quality;
-  return { { "kind", alignment::nameOf(candidate.kind) },
-           { "T_a_b", toJson(candidate.T_a_b) },
-           { "overlap_ratio", quality.overlap_ratio },
-           { "fsv_ratio", quality.fsv_ratio },
-           { "rmse_m", quality.rmse_m },
-           { "contact_gap_m", quality.contact_gap_m },
-           { "color_agreement", quality.color_agreement },
-           { "texture", quality.texture },
-           { "light_variance", quality.light_variance },
-           { "probability", quality.probability } };
+  nlohmann::json json = { { "kind", alignment::nameOf(candidate.kind) }, { "T_a_b", toJson(candidate.T_a_b) } };
+  for (const alignment::PairFigure& figure : alignment::pairFigures())
+    json[figure.name] = candidate.quality.*figure.value;
+  return json;
 }
 }  // namespace
 

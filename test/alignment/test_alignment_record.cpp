@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "object_modelling/alignment/pair_figures.h"
 #include "object_modelling/base/status.h"
 
 namespace object_modelling::alignment
@@ -14,7 +15,10 @@ AlignmentEdge edge()
   candidate.kind = ProposalKind::BY_HAND;
   candidate.T_a_b =
       Eigen::Translation3d(0.1, -1.0 / 3, 2e-9) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized());
-  candidate.quality = { 0.57, 1e-3, 4.1e-4, 2e-3, -0.3, 0.11, 0.004, 0.975 };
+  double value = 4.1e-4;
+  for (const PairFigure& figure : pairFigures())
+    candidate.quality.*figure.value = value *= -1.7;
+  candidate.quality.probability = 0.975;
   AlignmentEdge result;
   result.session_a = "mug_1";
   result.session_b = "mug_2";
@@ -59,22 +63,27 @@ TEST(AlignmentRecord, KeepsEverything)
   const PairCandidate &was = before.candidates[0], &is = after.candidates[0];
   EXPECT_EQ(is.kind, was.kind);
   EXPECT_EQ(is.T_a_b.matrix(), was.T_a_b.matrix());
-  EXPECT_EQ(is.quality.overlap_ratio, was.quality.overlap_ratio);
-  EXPECT_EQ(is.quality.fsv_ratio, was.quality.fsv_ratio);
-  EXPECT_EQ(is.quality.rmse_m, was.quality.rmse_m);
-  EXPECT_EQ(is.quality.contact_gap_m, was.quality.contact_gap_m);
-  EXPECT_EQ(is.quality.color_agreement, was.quality.color_agreement);
-  EXPECT_EQ(is.quality.texture, was.quality.texture);
-  EXPECT_EQ(is.quality.light_variance, was.quality.light_variance);
-  EXPECT_EQ(is.quality.probability, was.quality.probability);
+  for (const PairFigure& figure : pairFigures())
+    EXPECT_EQ(is.quality.*figure.value, was.quality.*figure.value) << figure.name;
 }
 
-TEST(AlignmentRecord, ReadsOneFromBeforeLightWasMeasured)
+TEST(AlignmentRecord, ReadsOneThatLacksWhatWasAddedSince)
 {
-  const std::string old = replaced(recordOf(edge()).findings, "    light_variance: 0.004\n", "");
-  const AlignmentEdge after = edgeFrom({ "mug_1", "mug_2", old });
-  EXPECT_EQ(after.candidates.front().quality.light_variance, 0);
-  EXPECT_EQ(after.candidates.front().quality.probability, 0.975);
+  for (const PairFigure& figure : pairFigures())
+  {
+    const std::string all = recordOf(edge()).findings;
+    const auto from = all.find(std::string("    ") + figure.name + ":");
+    ASSERT_NE(from, std::string::npos) << figure.name;
+    const std::string without = all.substr(0, from) + all.substr(all.find('\n', from) + 1);
+    if (figure.required)
+    {
+      EXPECT_FALSE(refusal(without).empty()) << figure.name;
+      continue;
+    }
+    const PairQuality quality = edgeFrom({ "mug_1", "mug_2", without }).candidates.front().quality;
+    EXPECT_EQ(quality.*figure.value, PairQuality().*figure.value) << figure.name;
+    EXPECT_EQ(quality.probability, 0.975);
+  }
 }
 
 TEST(AlignmentRecord, KeepsARefusalWithoutPoses)

@@ -97,11 +97,16 @@ TEST_F(PairAlignmentOfABox, FindsItTurnedUpsideDown)
              truth(upright_, SIZE_M.z(), down, SIZE_M.z()), SIZE_M.z());
 }
 
-TEST_F(PairAlignmentOfABox, FindsItInTheSameRestingPose)
+TEST_F(PairAlignmentOfABox, FindsItInTheSameRestingPoseIfThatMayBe)
 {
   const Eigen::Matrix3d turned = about(Z, 100);
-  expectNear(align(scanned("up", box_, upright_, SIZE_M.z()), scanned("again", box_, turned, SIZE_M.z())),
-             truth(upright_, SIZE_M.z(), turned, SIZE_M.z()), SIZE_M.z());
+  const PartialModel a = scanned("up", box_, upright_, SIZE_M.z()), b = scanned("again", box_, turned, SIZE_M.z());
+  PairAlignmentOptions same_pose;
+  same_pose.same_pose_probability = 0.5;
+  expectNear(align(a, b, same_pose), truth(upright_, SIZE_M.z(), turned, SIZE_M.z()), SIZE_M.z());
+  const PairAlignment unasked = align(a, b);
+  EXPECT_FALSE(unasked.accepted) << "nobody said that it may not have been turned over";
+  EXPECT_NE(unasked.reason.find("not been turned over"), std::string::npos) << unasked.reason;
 }
 
 TEST_F(PairAlignmentOfABox, TakesAnyEquivalentPoseWithoutColour)

@@ -1,4 +1,6 @@
 #include "alignment_report.h"
+#include "object_modelling/alignment/pair_evidence.h"
+#include "object_modelling/alignment/pair_figures.h"
 
 namespace object_modelling::benchmark_alignment
 {
@@ -23,20 +25,19 @@ nlohmann::json candidateJson(const PairRow& pair, std::size_t index)
 {
   const alignment::PairCandidate& candidate = pair.result.candidates[index];
   const alignment::PairQuality& quality = candidate.quality;
+  nlohmann::json features;
+  const alignment::FeatureVector values = alignment::featuresOf(quality);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    features[alignment::nameOf(static_cast<alignment::Feature>(i))] = values[i];
   nlohmann::json json = { { "kind", alignment::nameOf(candidate.kind) },
                           { "a_from_b", toJson(candidate.T_a_b) },
-                          { "overlap_ratio", quality.overlap_ratio },
-                          { "fsv_ratio", quality.fsv_ratio },
-                          { "rmse_m", quality.rmse_m },
-                          { "contact_gap_m", quality.contact_gap_m },
-                          { "color_agreement", quality.color_agreement },
-                          { "texture", quality.texture },
-                          { "light_variance", quality.light_variance },
-                          { "probability", quality.probability },
+                          { "features", features },
                           { "right", static_cast<bool>(pair.right[index]) },
                           { "rotation_error_deg", nullptr },
                           { "translation_error_mm", nullptr },
                           { "mesh_distance_mm", nullptr } };
+  for (const alignment::PairFigure& figure : alignment::pairFigures())
+    json[figure.name] = quality.*figure.value;
   if (pair.same_object)
   {
     json["rotation_error_deg"] = pair.errors[index].rotation_deg;
@@ -52,6 +53,7 @@ nlohmann::json toJson(const PairRow& pair)
                           { "b", pair.b },
                           { "same_object", pair.same_object },
                           { "true_overlap_ratio", nullptr },
+                          { "true_turn_rad", nullptr },
                           { "true_a_from_b", nullptr },
                           { "accepted", pair.result.accepted },
                           { "right", pair.result.accepted && pair.firstIsRight() },
@@ -62,6 +64,7 @@ nlohmann::json toJson(const PairRow& pair)
   if (pair.same_object)
   {
     json["true_overlap_ratio"] = pair.true_overlap;
+    json["true_turn_rad"] = pair.true_turn_rad;
     json["true_a_from_b"] = toJson(pair.T_a_b_true);
   }
   if (const std::optional<int> rank = pair.rankOfRight())
@@ -86,8 +89,10 @@ nlohmann::json toJson(const std::vector<SessionRow>& sessions, const std::vector
                               { "max_s", summary.max_s } } } };
   for (const SessionRow& session : sessions)
     json["sessions"].push_back({ { "id", session.id },
+                                 { "folder", session.folder },
                                  { "problem", session.problem },
                                  { "object", session.truth.object },
+                                 { "mesh", session.truth.mesh },
                                  { "keyframes", session.keyframes },
                                  { "points", session.part.points.size() },
                                  { "spacing_m", session.part.spacing_m },

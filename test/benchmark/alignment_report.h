@@ -14,6 +14,7 @@ struct SessionRow
 {
   std::string id;
   std::string session;  ///< that it is a part of
+  std::string folder;   ///< of the recording
   std::string problem;  ///< why it was left out; empty if it was not
   std::size_t keyframes = 0;
   double made_s = 0;  ///< 0: it was in the cache
@@ -31,6 +32,7 @@ struct PairRow
   alignment::PairAlignment result;
   // Of the same object only.
   double true_overlap = 0;
+  double true_turn_rad = -1;  ///< by how much the object was turned over in between; negative: no support plane
   Eigen::Isometry3d T_a_b_true = Eigen::Isometry3d::Identity();
   std::vector<CandidateErrors> errors;  ///< one per candidate
 

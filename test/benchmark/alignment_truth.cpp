@@ -6,6 +6,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "object_modelling/geometry/point_index.h"
 #include "object_modelling/source/trajectory_file.h"
 
 namespace object_modelling::benchmark_alignment
@@ -111,21 +112,24 @@ double trueOverlap(const alignment::PartialModel& a, const alignment::PartialMod
   const alignment::PartialModel &smaller = a_is_smaller ? a : b, &larger = a_is_smaller ? b : a;
   const Eigen::Isometry3f T_larger_smaller = (a_is_smaller ? T_a_b.inverse() : T_a_b).cast<float>();
   const double radius_m = OVERLAP_SPACINGS * std::max(a.spacing_m, b.spacing_m);
-  const auto radius_m2 = static_cast<float>(radius_m * radius_m);
+  const geometry::PointIndex index(larger.points);
   std::size_t shared = 0;
   for (std::size_t i = 0; i < smaller.points.size(); ++i)
   {
-    const Eigen::Vector3f p = T_larger_smaller * smaller.points[i];
     const Eigen::Vector3f n = T_larger_smaller.linear() * smaller.normals[i];
-    for (std::size_t k = 0; k < larger.points.size(); ++k)
-      if ((larger.points[k] - p).squaredNorm() <= radius_m2 &&
-          larger.normals[k].dot(n) >= static_cast<float>(OVERLAP_COSINE))
-      {
-        ++shared;
-        break;
-      }
+    const std::vector<std::uint32_t> near = index.within(T_larger_smaller * smaller.points[i], radius_m);
+    shared +=
+        std::any_of(near.begin(), near.end(),
+                    [&](std::uint32_t k) { return larger.normals[k].dot(n) >= static_cast<float>(OVERLAP_COSINE); });
   }
   return smaller.points.empty() ? 0 : static_cast<double>(shared) / static_cast<double>(smaller.points.size());
+}
+
+double trueTurn_rad(const alignment::PartialModel& a, const alignment::PartialModel& b, const Eigen::Isometry3d& T_a_b)
+{
+  if (!a.support_plane || !b.support_plane)
+    return -1;
+  return std::acos(std::clamp(a.support_plane->normal.dot(T_a_b.linear() * b.support_plane->normal), -1.0, 1.0));
 }
 
 double meshDistance_mm(const std::vector<Eigen::Vector3f>& points, const Eigen::Isometry3d& T_object_session,

@@ -27,6 +27,9 @@ SessionTruth sessionTruth(const std::string& folder, const std::string& object_f
 /// the same way.
 double trueOverlap(const alignment::PartialModel& a, const alignment::PartialModel& b, const Eigen::Isometry3d& T_a_b);
 
+/// Angle between what was up in the sessions, as the object lies; negative without support planes.
+double trueTurn_rad(const alignment::PartialModel& a, const alignment::PartialModel& b, const Eigen::Isometry3d& T_a_b);
+
 /// Mean, of points of a session from the true mesh.
 double meshDistance_mm(const std::vector<Eigen::Vector3f>& points, const Eigen::Isometry3d& T_object_session,
                        const evaluation::ReferenceSurface& surface);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <random>
 #include <set>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 
@@ -16,6 +17,7 @@
 #include "alignment_report.h"
 #include "alignment_sessions.h"
 #include "benchmark_program.h"
+#include "object_modelling/base/atomic_file.h"
 #include "object_modelling/evaluation/comparison_files.h"
 #include "object_modelling/rgbd/noise_model_file.h"
 
@@ -27,7 +29,7 @@ using namespace object_modelling::benchmark_alignment;
 struct Arguments
 {
   std::vector<std::string> folders;
-  std::string cache, json;
+  std::string cache, json, parts;
   bool grey = false, cross = false, growth = false;
   int arcs = 0;  ///< parts of each session, of a run of its keyframes each; 0: one of all
   std::uint64_t seed = 1;
@@ -73,12 +75,31 @@ void keepArc(std::uint64_t seed, const std::string& id, std::vector<rgbd::Keyfra
   keyframes->swap(kept);
 }
 
+/// Points, normals and colours as a PLY file, for looking at what was aligned.
+void writePart(const std::string& folder, const alignment::PartialModel& part)
+{
+  std::string name = part.session_id;
+  std::replace(name.begin(), name.end(), '/', '_');
+  std::ostringstream out;
+  out << "ply\nformat ascii 1.0\nelement vertex " << part.points.size();
+  for (const char* property : { "float x", "float y", "float z", "float nx", "float ny", "float nz", "uchar red",
+                                "uchar green", "uchar blue" })
+    out << "\nproperty " << property;
+  out << "\nend_header\n";
+  const Eigen::IOFormat row(6, Eigen::DontAlignCols, " ", " ");
+  for (std::size_t i = 0; i < part.points.size(); ++i)
+    out << part.points[i].transpose().format(row) << " " << part.normals[i].transpose().format(row) << " "
+        << part.colors_rgb[i].cast<int>().transpose().format(row) << "\n";
+  base::writeTextFile(folder + "/" + name + ".ply", out.str());
+}
+
 /// One that fails is left out and tells why, so that hours of work on the others are not lost.
 SessionRow prepareSession(const std::string& folder, int arc, const Arguments& arguments, Surfaces* surfaces)
 {
   SessionRow row;
   row.id = sessionIdOf(folder);
   row.session = row.id;
+  row.folder = folder;
   if (arguments.arcs > 0)
     row.id += "/" + std::to_string(arc);
   try
@@ -94,6 +115,8 @@ SessionRow prepareSession(const std::string& folder, int arc, const Arguments& a
     const auto start = std::chrono::steady_clock::now();
     row.part = alignment::makePartialModel(stored.session, stored.keyframes, arguments.part, control);
     row.part_s = secondsSince(start);
+    if (!arguments.parts.empty())
+      writePart(arguments.parts, row.part);
     row.mesh_distance_mm =
         meshDistance_mm(row.part.points, row.truth.T_session_object.inverse(), surfaces->of(row.truth));
   }
@@ -127,6 +150,7 @@ PairRow alignSessions(const SessionRow& a, const SessionRow& b, const Arguments&
     return row;
   row.T_a_b_true = a.truth.T_session_object * b.truth.T_session_object.inverse();
   row.true_overlap = trueOverlap(a.part, b.part, row.T_a_b_true);
+  row.true_turn_rad = trueTurn_rad(a.part, b.part, row.T_a_b_true);
   for (std::size_t i = 0; i < row.result.candidates.size(); ++i)
   {
     row.errors.push_back(errorsOf(row.result.candidates[i].T_a_b, b.part, a.truth, b.truth, surfaces->of(a.truth)));
@@ -222,6 +246,9 @@ int main(int argc, char** argv)
   app.add_option("--seed", arguments.seed, "Of --arcs and --max-cross")->capture_default_str();
   app.add_flag("--growth", arguments.growth, "Instead: time by the number of sessions, which are of one object");
   app.add_option("--json", arguments.json, "Also write all figures, of all candidates, to this file");
+  app.add_option("--parts", arguments.parts, "Also write what is aligned, a PLY file of points for each session")
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--same-pose-probability", arguments.pair.same_pose_probability)->capture_default_str();
   app.add_option("--threads", arguments.pair.threads)->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--spacing-mm", spacing_mm, "Of the points of a part")
       ->check(CLI::PositiveNumber)

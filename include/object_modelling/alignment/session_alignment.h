@@ -48,9 +48,10 @@ struct AlignmentResult
 };
 
 /// Places the sessions of one object in the frame of the first of them (where that one fits none, of the first that
-/// does): the maximum spanning tree on the probability of the accepted edges places them, and the others check it. A
-/// session that does not connect is left out and named, never left at identity.
-AlignmentResult placeSessions(const std::vector<PartialModel>& parts, std::vector<AlignmentEdge> edges);
+/// does) by all edges together: a session is placed where it is more probable than `min_probability`, given what all
+/// its pairs with the others say. One that is not is left out and named, never left at identity.
+AlignmentResult placeSessions(const std::vector<PartialModel>& parts, double min_probability,
+                              std::vector<AlignmentEdge> edges);
 
 /// Aligns every pair of sessions, and places them. Of `known_edges`, those
 /// that a person decided stand; an accepted one is taken over, at its pose moved into place, where the parts still

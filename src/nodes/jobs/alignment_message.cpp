@@ -17,9 +17,15 @@ object_modelling::AlignmentCandidate toMessage(const alignment::PairCandidate& c
   message.fsv_ratio = candidate.quality.fsv_ratio;
   message.rmse_m = candidate.quality.rmse_m;
   message.contact_gap_m = candidate.quality.contact_gap_m;
+  message.foot_m = candidate.quality.foot_m;
+  message.turn_rad = candidate.quality.turn_rad;
+  message.roughness_m = candidate.quality.roughness_m;
   message.color_agreement = candidate.quality.color_agreement;
   message.texture = candidate.quality.texture;
   message.light_variance = candidate.quality.light_variance;
+  message.edge_agreement = candidate.quality.edge_agreement;
+  message.edge_strength = candidate.quality.edge_strength;
+  message.features_upheld = candidate.quality.features_upheld;
   message.probability = candidate.quality.probability;
   return message;
 }

@@ -39,6 +39,7 @@ void read(Reader& reader, SessionAlignerOptions* options)
   reader.read("pair/refined_candidates", pair.refined_candidates);
   reader.read("pair/min_overlap_ratio", pair.min_overlap_ratio);
   reader.read("pair/min_probability", pair.min_probability);
+  reader.read("pair/same_pose_probability", pair.same_pose_probability);
   reader.read("pair/seed", pair.seed);
   reader.read("pair/threads", pair.threads);
   reader.read("use_known", options->align.use_known);

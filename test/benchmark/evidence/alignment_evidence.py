@@ -19,9 +19,10 @@ from logistic import Choice, calibrate, fit, probabilities  # noqa: E402
 from pictures import pictures  # noqa: E402
 from report import failures_table, outcome_table, reliability_table, same_pose  # noqa: E402
 
-PRIOR_RAD = (0.17, 0.35)  # as in pair_evidence.cpp
-SAME_POSE_PROBABILITY = 0.01
-FOR_A_POSE = ("overlap", "space", "fit", "contact", "color", "relit_color", "edges", "features")
+PRIOR_RAD = (0.26, 0.52)  # as in pair_evidence.cpp
+SAME_POSE_PROBABILITY = 1e-9  # in the fit: no such pose is taken unasked, so that it must not bend the weights
+FEATURES = ("overlap", "space", "through", "fit", "contact", "print", "color", "edges", "features")  # as in the header
+FOR_A_POSE = ("overlap", "space", "through", "fit", "contact", "color", "edges", "features")
 
 
 def read(paths):
@@ -81,11 +82,11 @@ def summary(parameters, choices):
 def run_fit(arguments):
     fitted, calibration = read(arguments.fit), read(arguments.calibrate)
     names = list(fitted[0]["pairs"][0]["candidates"][0]["features"])
-    names.sort(key=arguments.order.index)
+    names.sort(key=FEATURES.index)
     choices = choices_of(fitted, names, arguments.cross_weight)
     others = choices_of(calibration, names, arguments.cross_weight)
     positive = [k for k, n in enumerate(names) if n in FOR_A_POSE]
-    parameters, errors = fit(choices, arguments.strength, positive)
+    parameters, errors = fit(choices, arguments.strength, positive, [names.index("print")])
     print("fit:        ", summary(parameters, choices))
     print("other, as is:", summary(parameters, others))
     parameters, scale, shift = calibrate(parameters, others)
@@ -116,11 +117,9 @@ def main():
     fitting.add_argument("--fit", nargs="+", required=True, metavar="JSON")
     fitting.add_argument("--calibrate", nargs="+", required=True, metavar="JSON", help="of other objects")
     fitting.add_argument("--header", help="written: src/alignment/pair_weights.h")
-    fitting.add_argument("--strength", type=float, default=1.0, help="of the penalty")
+    fitting.add_argument("--strength", type=float, default=2.0, help="of the penalty")
     fitting.add_argument("--cross-weight", type=float, default=0.5,
                          help="of all pairs of two objects, against those of one")
-    fitting.add_argument("--order", nargs="+", default=["overlap", "nothing_new", "space", "fit", "contact", "color",
-                                                        "relit_color", "edges", "features"], help=argparse.SUPPRESS)
     fitting.set_defaults(run=run_fit)
     reporting = commands.add_parser("report")
     reporting.add_argument("json", nargs="+")

@@ -38,13 +38,13 @@ def negative_log_likelihood(parameters, choices, penalty):
     return value, gradient
 
 
-def fit(choices, strength=1.0, non_negative=()):
+def fit(choices, strength=1.0, non_negative=(), non_positive=()):
     """Parameters (k + 1), the bias last, and their standard errors. Features are scaled to unit deviation for the
-    penalty. `non_negative`: indices of features that speak for a pose by their nature."""
+    penalty. `non_negative`, `non_positive`: indices of features that can only speak for a pose, or against one."""
     stacked = np.concatenate([c.features for c in choices])
     penalty = np.append(strength * stacked.var(0) / 4, 1e-6)
     count = stacked.shape[1]
-    bounds = [(0, None) if k in non_negative else (None, None) for k in range(count)] + [(None, None)]
+    bounds = [(0 if k in non_negative else None, 0 if k in non_positive else None) for k in range(count)] + [(None, None)]
     found = minimize(negative_log_likelihood, np.zeros(count + 1), (choices, penalty), jac=True, method="L-BFGS-B",
                      bounds=bounds, options={"maxiter": 2000, "ftol": 1e-12, "gtol": 1e-8})
     return found.x, standard_errors(found.x, choices, penalty)

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "object_modelling/alignment/pair_alignment.h"
+
+namespace object_modelling::alignment
+{
+/// One figure of a PairQuality by its name, as files and reports have it.
+struct PairFigure
+{
+  const char* name;
+  double PairQuality::*value;
+  bool required = true;  ///< older records lack what was added since: its default
+};
+
+/// All of them, in the order of PairQuality.
+const std::vector<PairFigure>& pairFigures();
+
+}  // namespace object_modelling::alignment
