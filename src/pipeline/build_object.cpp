@@ -1,5 +1,6 @@
 #include "object_modelling/pipeline/build_object.h"
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 
@@ -158,6 +159,14 @@ base::Status Build::check()
   if (placements_.empty())
     return { base::StatusCode::FAILED_PRECONDITION,
              "object '" + model_.id + "' has no session to build from: record one first" };
+  const std::vector<std::string> placed = idsOf(placements_);
+  for (const database::LeftOutSession& left_out : options_.left_out)
+  {
+    store_.session(left_out.id);  // NOT_FOUND names it
+    if (std::find(placed.begin(), placed.end(), left_out.id) != placed.end())
+      return { base::StatusCode::INVALID_ARGUMENT,
+               "session '" + left_out.id + "' is placed and left out: name it once" };
+  }
   return {};
 }
 
@@ -230,6 +239,8 @@ void Build::completeModel()
   model_.cloud = std::move(fused_.cloud);
   model_.textured = std::move(texture_.textured);
   model_.views = std::move(views_.keyframes);
+  model_.sessions_left_out = options_.left_out;
+  warnings_.insert(warnings_.begin(), partialText(model_));
   const bool has_texture = texture_.status.ok();
   model_.preview_bgr = has_texture ? surface::renderFourSides(model_.textured) : surface::renderFourSides(model_.mesh);
   model_.turntable_bgr = has_texture ? surface::renderTurntable(model_.textured, TURNTABLE_STEPS)

@@ -56,6 +56,17 @@ void describe(const Views& views, const std::vector<alignment::SessionPlacement>
                                 views.sessions[i].keyframe_count });
 }
 
+std::string partialText(const database::ObjectModel& model)
+{
+  if (model.sessions_left_out.empty())
+    return {};
+  std::string without;
+  for (const database::LeftOutSession& session : model.sessions_left_out)
+    without += (without.empty() ? "'" : ", '") + session.id + "'";
+  return "PARTIAL: object '" + model.id + "' is built from " + std::to_string(model.sessions.size()) + " of its " +
+         std::to_string(model.sessions.size() + model.sessions_left_out.size()) + " sessions, without " + without;
+}
+
 void updateSessions(keyframes::SessionStore& store, const database::ObjectModel& model, Views* views)
 {
   for (std::size_t i = 0; i < views->sessions.size(); ++i)
@@ -63,6 +74,15 @@ void updateSessions(keyframes::SessionStore& store, const database::ObjectModel&
     views->sessions[i].object_id = model.id;
     views->sessions[i].T_model_session = model.sessions[i].T_model_session;
     store.updateSession(views->sessions[i]);
+  }
+  for (const database::LeftOutSession& left_out : model.sessions_left_out)
+  {
+    keyframes::Session session = store.session(left_out.id);
+    if (!session.object_id.empty() && session.object_id != model.id)
+      continue;  // another object's
+    session.object_id = model.id;
+    session.T_model_session.reset();
+    store.updateSession(session);
   }
 }
 

@@ -20,7 +20,10 @@ void describe(const Views& views, const std::vector<alignment::SessionPlacement>
               const Eigen::Isometry3d& T_model_reference, const geometry::OrientedBox& box_reference,
               database::ObjectModel* model);
 
-/// Tells the store which sessions the model has, and where.
+/// Says that a model is partial, and what it lacks; empty where it is whole.
+std::string partialText(const database::ObjectModel& model);
+
+/// Tells the store which sessions the model has, and where; those left out belong to the object, but lie nowhere in it.
 void updateSessions(keyframes::SessionStore& store, const database::ObjectModel& model, Views* views);
 
 }  // namespace object_modelling::pipeline
