@@ -4,7 +4,8 @@ add_message_files(FILES
   Observation.msg Keyframe.msg ObjectMask.msg PoseUpdate.msg Session.msg StoreState.msg TrackingState.msg
   Progress.msg ObjectHypothesis.msg Hypotheses.msg SessionPlacement.msg AlignmentCandidate.msg AlignmentEdge.msg
   AlignmentRecord.msg IcpResidual.msg KeyframeResidual.msg
-  KeyframeLink.msg SessionRefinement.msg StageTime.msg ObjectSummary.msg BuiltObject.msg ManagerState.msg)
+  KeyframeLink.msg SessionRefinement.msg StageTime.msg ObjectSummary.msg BuiltObject.msg ManagerState.msg
+  SessionLeftOut.msg)
 add_service_files(FILES
   StartTracking.srv StopTracking.srv ResetTracking.srv
   CreateSession.srv ListSessions.srv GetSession.srv UpdateSession.srv SetSessionPose.srv DeleteSession.srv

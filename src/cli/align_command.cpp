@@ -4,6 +4,7 @@
 
 #include "command.h"
 #include "object_modelling/pipeline/align_sessions.h"
+#include "remedy_text.h"
 #include "report_text.h"
 
 namespace object_modelling::cli
@@ -53,7 +54,9 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
   options.part.use_color = !arguments.grey;
   options.use_known = !arguments.anew;
   decide(arguments, *store);
-  const alignment::AlignmentResult aligned = pipeline::alignSessions(*store, ids, options, control);
+  alignment::AlignmentResult aligned = pipeline::alignSessions(*store, ids, options, control);
+  if (!aligned.left_out.empty())
+    aligned.status.message += "; " + remedyFor(aligned, { arguments.object_id, arguments.store, "" });
   CommandOutput output;
   output.status = aligned.status;
   const bool note = aligned.status.ok() && !aligned.status.message.empty();

@@ -20,6 +20,7 @@ struct CommandOutput
   std::string text;
   nlohmann::json json;
   base::Status status{};  ///< of a failure whose figures are worth printing all the same
+  std::string warning{};  ///< printed on stderr: the command did its work, but not all that was hoped for
 };
 
 /// A parsed subcommand, ready to run. Throws base::Error.

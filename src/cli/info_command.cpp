@@ -23,16 +23,24 @@ CommandOutput describeDatabase(const std::string& path)
     nlohmann::json sessions = nlohmann::json::array();
     for (const database::ModelSession& session : entry.sessions)
       sessions.push_back(session.id);
+    nlohmann::json left_out = nlohmann::json::array();
+    for (const database::LeftOutSession& session : entry.sessions_left_out)
+      left_out.push_back({ { "session_id", session.id }, { "reason", session.reason } });
     output.json["objects"].push_back({ { "id", entry.id },
                                        { "name", entry.name },
                                        { "size_m", { entry.size_m.x(), entry.size_m.y(), entry.size_m.z() } },
                                        { "diameter_m", entry.diameter_m },
                                        { "sessions", sessions },
+                                       { "partial", entry.partial },
+                                       { "sessions_left_out", left_out },
                                        { "quality", entry.quality },
                                        { "mesh_path", entry.mesh_path },
                                        { "content_hash", entry.content_hash } });
     text << entry.id << ": " << 1000 * entry.size_m.x() << " x " << 1000 * entry.size_m.y() << " x "
-         << 1000 * entry.size_m.z() << " mm, " << entry.sessions.size() << " session(s)\n";
+         << 1000 * entry.size_m.z() << " mm, " << entry.sessions.size() << " session(s)"
+         << (entry.partial ? ", PARTIAL: " + std::to_string(left_out.size()) + " left out" : "") << "\n";
+    for (const database::LeftOutSession& session : entry.sessions_left_out)
+      text << "  without " << session.id << ": " << session.reason << "\n";
   }
   const std::vector<std::string> problems = database.check();
   output.json["problems"] = problems;

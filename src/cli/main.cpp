@@ -60,6 +60,8 @@ int execute(const cli::Command& command, bool json, bool quiet)
   {
     const cli::CommandOutput output = runQuietly(command, control);
     std::cout << (json ? output.json.dump(2) + "\n" : output.text) << std::flush;
+    if (!output.warning.empty())
+      std::cerr << "\nobject_modelling: WARNING: " << output.warning << std::endl;
     if (output.status.ok())
       return 0;
     status = output.status;
@@ -94,7 +96,8 @@ int main(int argc, char** argv)
   app.add_flag("--json", json, "Print the result as JSON on stdout");
   app.add_flag("--quiet", quiet, "No progress on stderr");
   app.footer(
-      "Exit codes: 0 done, 1 failed (the reason is on stderr), 2 wrong command line, 130 interrupted.\n"
+      "Exit codes: 0 done (a warning on stderr tells what could not be), 1 failed (the reason is on stderr), 2 wrong "
+      "command line, 130 interrupted.\n"
       "A recording is a TUM-style folder (rgb.txt, depth.txt, camera.yaml) or a ROS bag.");
   cli::Command command;
   cli::addTrackCommand(app, &command);

@@ -10,6 +10,7 @@
 #include "object_modelling/pipeline/build_object.h"
 #include "object_modelling/pipeline/session_jobs.h"
 #include "object_modelling/ros_bridge/recording.h"
+#include "remedy_text.h"
 #include "report_text.h"
 #include "temporary_store.h"
 
@@ -29,6 +30,7 @@ struct Arguments
   bool watertight = false;
   std::size_t max_triangles = 0;
   bool replace = false;
+  bool require_all = false;
   RecordArguments record;
 };
 
@@ -97,6 +99,65 @@ std::vector<std::string> storedSessions(const Arguments& arguments, keyframes::S
   return ids;
 }
 
+/// Says in the JSON which sessions the object does without, and why.
+void tellLeftOut(const alignment::AlignmentResult& aligned, nlohmann::json* json)
+{
+  (*json)["partial"] = !aligned.left_out.empty();
+  (*json)["left_out"] = aligned.left_out;
+  (*json)["refused_pairs"] = nlohmann::json::array();
+  for (const alignment::AlignmentEdge& edge : aligned.edges)
+    if (!edge.reason.empty())
+      (*json)["refused_pairs"].push_back(
+          { { "session_a", edge.session_a }, { "session_b", edge.session_b }, { "reason", edge.reason } });
+}
+
+/// Where not all fit though they are required to, the output's status says so.
+alignment::AlignmentResult align(const Arguments& arguments, const std::vector<std::string>& session_ids,
+                                 keyframes::SessionStore& store, base::JobControl& control, CommandOutput* output)
+{
+  pipeline::AlignOptions options;
+  options.required = arguments.require_all ? pipeline::Required::ALL : pipeline::Required::ONE;
+  alignment::AlignmentResult aligned = pipeline::alignSessions(store, session_ids, options, control);
+  if (aligned.left_out.empty())
+    throwUnlessOk("alignment", aligned.status);
+  else
+    aligned.status.message += "; " + remedyFor(aligned, { arguments.object_id, arguments.store, arguments.database });
+  tellLeftOut(aligned, &output->json);
+  if (session_ids.size() > 1)
+  {
+    output->text += toText(aligned);
+    output->json["alignment"] = toJson(aligned);
+  }
+  if (!aligned.status.ok())
+  {
+    output->status = { aligned.status.code, "alignment: " + aligned.status.message };
+    output->json["status"] = toJson(output->status);
+  }
+  return aligned;
+}
+
+void build(const Arguments& arguments, const alignment::AlignmentResult& aligned, keyframes::SessionStore& store,
+           database::ObjectDatabase& database, base::JobControl& control, CommandOutput* output)
+{
+  pipeline::BuildOptions options;
+  options.replace = arguments.replace;
+  options.fusion.resolution_m = arguments.resolution_mm / 1000;
+  options.surface.resolution_m = arguments.resolution_mm / 1000;
+  options.surface.watertight = arguments.watertight;
+  options.surface.max_triangles = arguments.max_triangles;
+  options.left_out = pipeline::leftOutOf(aligned);
+  const pipeline::BuildReport built =
+      pipeline::buildObject(store, database, arguments.object_id, arguments.name, aligned.placements, options, control);
+  output->text += toText(built);
+  output->json["build"] = toJson(built);
+  base::Status status = built.status;
+  if (!aligned.left_out.empty())
+    status.message += "; " + aligned.status.message;
+  throwUnlessOk("building object '" + arguments.object_id + "'", status);
+  if (!aligned.left_out.empty())
+    output->warning = status.message;
+}
+
 CommandOutput run(const Arguments& arguments, base::JobControl& control)
 {
   if (arguments.recordings.empty() && arguments.store.empty())
@@ -118,28 +179,13 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
   output.json["object_id"] = arguments.object_id;
   output.json["sessions"] = nlohmann::json::array();
   std::vector<std::string> session_ids = storedSessions(arguments, store);
-  pipeline::BuildOptions options;
   for (const std::string& recording : arguments.recordings)
     session_ids.push_back(processRecording(recording, arguments, store, control, &output));
 
-  const alignment::AlignmentResult aligned = pipeline::alignSessions(store, session_ids, {}, control);
-  throwUnlessOk("alignment", aligned.status);
-  if (session_ids.size() > 1)
-  {
-    output.text += toText(aligned);
-    output.json["alignment"] = toJson(aligned);
-  }
-
-  options.replace = arguments.replace;
-  options.fusion.resolution_m = arguments.resolution_mm / 1000;
-  options.surface.resolution_m = arguments.resolution_mm / 1000;
-  options.surface.watertight = arguments.watertight;
-  options.surface.max_triangles = arguments.max_triangles;
-  const pipeline::BuildReport built =
-      pipeline::buildObject(store, database, arguments.object_id, arguments.name, aligned.placements, options, control);
-  output.text += toText(built);
-  output.json["build"] = toJson(built);
-  throwUnlessOk("building object '" + arguments.object_id + "'", built.status);
+  const alignment::AlignmentResult aligned = align(arguments, session_ids, store, control, &output);
+  if (!output.status.ok())
+    return output;
+  build(arguments, aligned, store, database, control, &output);
   return output;
 }
 }  // namespace
@@ -173,6 +219,9 @@ void addModelCommand(CLI::App& app, Command* chosen)
   command->add_flag("--replace", arguments->replace,
                     "Replace an object of this name that was built from other sessions; its frame changes");
   addRecordOptions(*command, &arguments->record);
+  command->add_flag(
+      "--require-all", arguments->require_all,
+      "Fail where not all sessions fit each other, instead of building a partial object from those that do");
   command->footer("Example: object_modelling model mustard recordings/mustard_up --database ~/objects");
   command->callback([arguments, chosen]
                     { *chosen = [arguments](base::JobControl& control) { return run(*arguments, control); }; });

@@ -47,6 +47,21 @@ void checkFrames(const std::string& path, const ObjectEntry& entry, Problems* pr
     check(session.T_model_session, "model_from_session of session '" + session.id + "'");
 }
 
+void checkLeftOut(const std::string& path, const ObjectEntry& entry, bool listed_partial, Problems* problems)
+{
+  const auto text = [](bool partial) { return partial ? "true" : "false"; };
+  if (entry.partial == entry.sessions_left_out.empty())
+    problems->push_back(path + ": partial is " + text(entry.partial) + ", but sessions_left_out has " +
+                        std::to_string(entry.sessions_left_out.size()) + " sessions");
+  if (entry.partial != listed_partial)
+    problems->push_back(path + ": partial is " + text(entry.partial) + ", but " + text(listed_partial) +
+                        " in manifest.yaml");
+  for (const LeftOutSession& left_out : entry.sessions_left_out)
+    for (const ModelSession& session : entry.sessions)
+      if (session.id == left_out.id)
+        problems->push_back(path + ": session '" + session.id + "' is in sessions and in sessions_left_out");
+}
+
 void checkFiles(const std::string& folder, const std::map<std::string, std::string>& expected, Problems* problems)
 {
   const std::map<std::string, std::string> found = hashesOfFolder(folder);
@@ -63,7 +78,7 @@ void checkFiles(const std::string& folder, const std::map<std::string, std::stri
       problems->push_back(folder + "/" + file + " is not listed in object.yaml");
 }
 
-void checkObject(const std::string& folder, const std::string& id, const std::string& content_hash, Problems* problems)
+void checkObject(const std::string& folder, const std::string& id, const ListedObject& listed, Problems* problems)
 {
   if (!fs::is_directory(folder))
   {
@@ -72,12 +87,13 @@ void checkObject(const std::string& folder, const std::string& id, const std::st
   }
   const std::string path = folder + "/object.yaml";
   const ObjectDescription object = readObject(folder);
-  if (object.entry.content_hash != content_hash)
+  if (object.entry.content_hash != listed.content_hash)
     problems->push_back(path + " has been changed: its SHA-256 is not the content_hash in manifest.yaml");
   if (object.entry.id != id)
     problems->push_back(path + ": id is '" + object.entry.id + "', but the folder is '" + id + "'");
   checkUnits(path, object.unit, object.handedness, problems);
   checkFrames(path, object.entry, problems);
+  checkLeftOut(path, object.entry, listed.partial, problems);
   checkFiles(folder, object.file_hashes, problems);
   const Problems of_report = checkReport(folder);
   problems->insert(problems->end(), of_report.begin(), of_report.end());
@@ -97,11 +113,11 @@ std::vector<std::string> ObjectDatabase::check() const
     return { error.what() };
   }
   checkUnits(manifestPath(root_), manifest.unit, manifest.handedness, &problems);
-  for (const auto& [id, content_hash] : manifest.objects)
+  for (const auto& [id, listed] : manifest.objects)
   {
     try
     {
-      checkObject(root_ + "/" + id, id, content_hash, &problems);
+      checkObject(root_ + "/" + id, id, listed, &problems);
     }
     catch (const std::exception& error)  // of the file system, or of our own reading
     {

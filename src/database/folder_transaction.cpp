@@ -14,9 +14,9 @@
 #include <thread>
 
 #include "content_hash.h"
-#include "manifest.h"
 #include "object_modelling/base/atomic_file.h"
 #include "object_modelling/base/status.h"
+#include "object_yaml.h"
 
 namespace object_modelling::database
 {
@@ -58,7 +58,7 @@ bool exchange(const std::string& a, const std::string& b)
   return syscall(SYS_renameat2, AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
 }
 
-void prepareManifest(const std::string& root, const std::map<std::string, std::string>& objects)
+void prepareManifest(const std::string& root, const std::map<std::string, ListedObject>& objects)
 {
   writeManifest(root + "/" + NEXT_MANIFEST, objects);
 }
@@ -70,23 +70,38 @@ void publishManifest(const std::string& root)
   base::syncToDisk(root);
 }
 
+/// What the manifest has to say of the object in a folder.
+ListedObject listedFrom(const std::string& folder)
+{
+  ListedObject listed{ hashOfFile(folder + "/object.yaml"), false };
+  try
+  {
+    listed.partial = readObject(folder).entry.partial;
+  }
+  catch (const Error&)
+  {
+    // Not to be read: check() names it.
+  }
+  return listed;
+}
+
 /// A prepared manifest tells that a change was under way. The folders say how far it came.
 void reconcileManifest(const std::string& root)
 {
   if (!fs::exists(root + "/" + NEXT_MANIFEST))
     return;
-  std::map<std::string, std::string> objects = readManifest(manifestPath(root)).objects;
-  for (const auto& [id, content_hash] : readManifest(root + "/" + NEXT_MANIFEST).objects)
-    objects[id] = content_hash;
+  std::map<std::string, ListedObject> objects = readManifest(manifestPath(root)).objects;
+  for (const auto& [id, listed] : readManifest(root + "/" + NEXT_MANIFEST).objects)
+    objects[id] = listed;
   for (auto object = objects.begin(); object != objects.end();)
   {
-    const std::string description = root + "/" + object->first + "/object.yaml";
-    if (!fs::exists(description))
+    const std::string folder = root + "/" + object->first;
+    if (!fs::exists(folder + "/object.yaml"))
     {
       object = objects.erase(object);
       continue;
     }
-    object->second = hashOfFile(description);
+    object->second = listedFrom(folder);
     ++object;
   }
   writeManifest(manifestPath(root), objects);
@@ -156,13 +171,13 @@ void replaceFolder(const std::string& replacement, const std::string& target, co
   }
 }
 
-void commitObject(const std::string& root, const std::string& object_id, const std::string& content_hash)
+void commitObject(const std::string& root, const std::string& object_id, const ListedObject& listed)
 {
   const std::string replacement = root + "/" + NEW + object_id;
   const std::string target = root + "/" + object_id;
   const std::string parked = root + "/" + PARKED + object_id;
-  std::map<std::string, std::string> objects = readManifest(manifestPath(root)).objects;
-  objects[object_id] = content_hash;
+  std::map<std::string, ListedObject> objects = readManifest(manifestPath(root)).objects;
+  objects[object_id] = listed;
   prepareManifest(root, objects);
   replaceFolder(replacement, target, parked);
   try
@@ -182,7 +197,7 @@ void commitRemoval(const std::string& root, const std::string& object_id)
 {
   const std::string target = root + "/" + object_id;
   const std::string removed = root + "/" + REMOVED + object_id;
-  std::map<std::string, std::string> objects = readManifest(manifestPath(root)).objects;
+  std::map<std::string, ListedObject> objects = readManifest(manifestPath(root)).objects;
   objects.erase(object_id);
   prepareManifest(root, objects);
   rename(target, removed);

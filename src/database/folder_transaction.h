@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 
+#include "manifest.h"
 #include "object_modelling/base/job_control.h"
 
 /// How a database changes: the new object is made complete in a temporary folder, the manifest that lists it lies ready
@@ -29,7 +30,7 @@ std::string makeTemporaryFolder(const std::string& root, const std::string& obje
 void syncFolder(const std::string& folder);
 
 /// Puts the temporary folder of the object in its place, and the manifest with it.
-void commitObject(const std::string& root, const std::string& object_id, const std::string& content_hash);
+void commitObject(const std::string& root, const std::string& object_id, const ListedObject& listed);
 /// Takes the object away, and its line in the manifest.
 void commitRemoval(const std::string& root, const std::string& object_id);
 

@@ -21,19 +21,20 @@ Manifest readManifest(const std::string& path)
     manifest.unit = node["unit"].as<std::string>();
     manifest.handedness = node["handedness"].as<std::string>();
     for (const YAML::Node& object : node["objects"])
-      manifest.objects[object["id"].as<std::string>()] = object["content_hash"].as<std::string>();
+      manifest.objects[object["id"].as<std::string>()] = { object["content_hash"].as<std::string>(),
+                                                           object["partial"] && object["partial"].as<bool>() };
   }
   catch (const YAML::Exception& error)
   {
     throw base::Error(base::StatusCode::BAD_INPUT, path + " is no manifest of an object database: " + error.what());
   }
-  for (const auto& [id, content_hash] : manifest.objects)
+  for (const auto& [id, listed] : manifest.objects)
     if (!keyframes::isValidId(id))
       throw base::Error(base::StatusCode::BAD_INPUT, path + " lists '" + id + "', which is no object id");
   return manifest;
 }
 
-void writeManifest(const std::string& path, const std::map<std::string, std::string>& objects)
+void writeManifest(const std::string& path, const std::map<std::string, ListedObject>& objects)
 {
   YAML::Emitter out;
   out << YAML::BeginMap;
@@ -41,9 +42,10 @@ void writeManifest(const std::string& path, const std::map<std::string, std::str
   out << YAML::Key << "unit" << YAML::Value << UNIT;
   out << YAML::Key << "handedness" << YAML::Value << HANDEDNESS;
   out << YAML::Key << "objects" << YAML::Value << YAML::BeginSeq;
-  for (const auto& [id, content_hash] : objects)
+  for (const auto& [id, listed] : objects)
     out << YAML::BeginMap << YAML::Key << "id" << YAML::Value << YAML::DoubleQuoted << id << YAML::Key << "content_hash"
-        << YAML::Value << content_hash << YAML::EndMap;
+        << YAML::Value << listed.content_hash << YAML::Key << "partial" << YAML::Value << listed.partial
+        << YAML::EndMap;
   out << YAML::EndSeq << YAML::EndMap;
   base::writeTextFile(path, std::string(out.c_str()) + "\n");
 }

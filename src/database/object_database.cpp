@@ -125,7 +125,7 @@ ObjectDatabase::ObjectDatabase(const std::string& root, bool create) : root_(fs:
 std::vector<ObjectEntry> ObjectDatabase::list() const
 {
   std::vector<ObjectEntry> entries;
-  for (const auto& [id, content_hash] : readManifest(manifestPath(root_)).objects)
+  for (const auto& [id, listed] : readManifest(manifestPath(root_)).objects)
   {
     try
     {
@@ -163,7 +163,7 @@ std::string ObjectDatabase::write(const ObjectModel& model, base::JobControl& co
            sealReport(folder);
            syncFolder(folder);
            control.checkCancelled();
-           commitObject(root_, model.id, hashOfText(description));
+           commitObject(root_, model.id, { hashOfText(description), !model.sessions_left_out.empty() });
          });
   return root_ + "/" + model.id;
 }

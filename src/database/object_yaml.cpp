@@ -28,6 +28,16 @@ void emitSessions(YAML::Emitter& out, const ObjectModel& model)
   out << YAML::EndSeq;
 }
 
+void emitLeftOut(YAML::Emitter& out, const ObjectModel& model)
+{
+  out << YAML::Key << "partial" << YAML::Value << !model.sessions_left_out.empty();
+  out << YAML::Key << "sessions_left_out" << YAML::Value << YAML::BeginSeq;
+  for (const LeftOutSession& session : model.sessions_left_out)
+    out << YAML::BeginMap << YAML::Key << "id" << YAML::Value << YAML::DoubleQuoted << session.id << YAML::Key
+        << "reason" << YAML::Value << YAML::DoubleQuoted << session.reason << YAML::EndMap;
+  out << YAML::EndSeq;
+}
+
 void emitViews(YAML::Emitter& out, const ObjectModel& model)
 {
   out << YAML::Key << "views" << YAML::Value << YAML::BeginSeq;
@@ -69,6 +79,10 @@ ObjectEntry entryFrom(const YAML::Node& node)
   for (const YAML::Node& session : node["sessions"])
     entry.sessions.push_back({ session["id"].as<std::string>(), transformFromYaml(session["model_from_session"]),
                                session["keyframe_count"].as<int>() });
+  if (node["partial"])  // files of before lack it, and sessions_left_out
+    entry.partial = node["partial"].as<bool>();
+  for (const YAML::Node& session : node["sessions_left_out"])
+    entry.sessions_left_out.push_back({ session["id"].as<std::string>(), session["reason"].as<std::string>() });
   for (const auto& figure : node["quality"])
     entry.quality[figure.first.as<std::string>()] = figure.second.as<double>();
   return entry;
@@ -94,6 +108,7 @@ std::string objectYaml(const ObjectModel& model, const std::map<std::string, std
     emitTransform(out, T_support_model);
   out << YAML::EndSeq;
   emitSessions(out, model);
+  emitLeftOut(out, model);
   emitMap(out, "quality", model.quality, yamlNumber);
   emitMap(out, "provenance", model.provenance, [](const std::string& text) { return text; });
   out << YAML::Key << "cloud_point_count" << YAML::Value << model.cloud.size();

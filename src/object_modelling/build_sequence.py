@@ -2,9 +2,9 @@
 
 `jobs` offers list_sessions() and session(id) (objects with session_id, object_id, keyframe_count,
 refinement_report, has_support_plane) and the long jobs
-refine(ids, progress), segment(id, progress), align(ids, progress) -> placements, note and
-build(object_id, name, placements, replace, progress) -> built, note. All raise Failure. A note tells what a job that
-succeeded could not do; else it is empty.
+refine(ids, progress), segment(id, progress), align(ids, require_all, progress) -> placements, left_out, note and
+build(object_id, name, placements, left_out, replace, progress) -> built, note. All raise Failure. A note tells what a job
+that succeeded could not do; else it is empty.
 """
 from object_modelling.outcome import Code, Failure, check_id
 
@@ -44,10 +44,11 @@ def _sessions_of(jobs, object_id, last_session_id):
     )
 
 
-def build(jobs, object_id, name, session_ids, replace, again, progress, clock):
+def build(jobs, request, session_ids, progress, clock):
     """Runs all stages; returns (built, [(stage, seconds)], note). progress(stage, step, done, total) may raise Failure to
-    cancel: a stage then leaves the store as it was. Sessions that were refined or segmented already are so only `again` on
-    request: a person may have chosen the object."""
+    cancel: a stage then leaves the store as it was. `request`: object_id, name, replace, again, require_all, as in
+    srv/BuildObject.srv. Sessions that were refined or segmented already are so only `again` on request: a person may have
+    chosen the object. Sessions that do not fit make the object partial, unless all are required."""
     times = []
 
     def run(stage, job):
@@ -58,7 +59,7 @@ def build(jobs, object_id, name, session_ids, replace, again, progress, clock):
         return result
 
     def pending(is_done, report):
-        left = [name for name in session_ids if again or not is_done(jobs.session(name))]
+        left = [name for name in session_ids if request.again or not is_done(jobs.session(name))]
         done = [name for name in session_ids if name not in left]
         if done:
             report("as before: " + ", ".join(done), 0, 0)
@@ -77,6 +78,14 @@ def build(jobs, object_id, name, session_ids, replace, again, progress, clock):
 
     run("refine", refine)
     run("segment", segment)
-    placements, left_out = run("align", lambda report: jobs.align(session_ids, report))
-    built, unfinished = run("build", lambda report: jobs.build(object_id, name, placements, replace, report))
-    return built, times, "; ".join(note for note in (left_out, unfinished) if note)
+    placements, left_out, why_left_out = run(
+        "align", lambda report: jobs.align(session_ids, request.require_all, report))
+    try:
+        built, unfinished = run("build", lambda report: jobs.build(
+            request.object_id, request.name, placements, left_out, request.replace, report))
+    except Failure as failure:
+        if left_out and failure.code != Code.CANCELLED:
+            raise Failure(failure.code, "%s; %s" % (failure.message, why_left_out)) from failure
+        raise
+    # First that the object is partial, then why and what to do.
+    return built, times, "; ".join(note for note in (unfinished, why_left_out) if note)

@@ -40,13 +40,14 @@ class ModellingJobs:
     def segment(self, session_id, progress):
         check(self._segment.run(SegmentSessionGoal(session_id=session_id), progress).status, "segment: ")
 
-    def align(self, session_ids, progress):
-        result = self._align.run(AlignGoal(session_ids=session_ids), progress)
+    def align(self, session_ids, require_all, progress):
+        required = AlignGoal.REQUIRE_ALL if require_all else AlignGoal.REQUIRE_ONE
+        result = self._align.run(AlignGoal(session_ids=session_ids, required=required), progress)
         check(result.status, "align: ")
-        return result.placements, result.status.message
+        return result.placements, result.left_out_reasons, result.status.message
 
-    def build(self, object_id, name, placements, replace, progress):
-        goal = BuildGoal(object_id=object_id, name=name, placements=placements, replace=replace)
+    def build(self, object_id, name, placements, left_out, replace, progress):
+        goal = BuildGoal(object_id=object_id, name=name, placements=placements, left_out=left_out, replace=replace)
         result = self._build.run(goal, progress)
         check(result.status, "build: ")
         return result.built, result.status.message

@@ -176,8 +176,7 @@ class ModellingManager:
                     self._report.state(self._state)
             self._report.progress(request.object_id, ("%s: %s" % (stage, step)) if step else stage, done, total)
 
-        built, times, note = build_sequence.build(self._jobs, request.object_id, request.name, session_ids,
-                                                  request.replace, request.again, progress, time.monotonic)
+        built, times, note = build_sequence.build(self._jobs, request, session_ids, progress, time.monotonic)
         # The builder tells its own stages apart.
         before = [msg.StageTime(stage, duration_s) for stage, duration_s in times if stage != "build"]
         built.stages = before + list(built.stages)

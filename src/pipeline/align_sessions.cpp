@@ -124,6 +124,7 @@ alignment::AlignmentResult alignParts(keyframes::SessionStore& store, const std:
     std::string& message = result.status.message;
     message += (message.empty() ? "" : "; ") + std::string("the alignments could not be kept: ") + error.what();
   }
+  require(options.required, store, parts, &result);
   return result;
 }
 

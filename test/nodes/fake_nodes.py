@@ -85,7 +85,7 @@ class FakeJob:
         self.gate.set()
         self.started = threading.Event()
         self.goals = []
-        self._result = result
+        self.result = result
         self._feedback = feedback
         self._server = actionlib.SimpleActionServer(name, action_type, self._run, auto_start=False)
         self._server.start()
@@ -97,11 +97,11 @@ class FakeJob:
         self._server.publish_feedback(self._feedback)
         while not self.gate.wait(0.02):
             if self._server.is_preempt_requested():
-                self._result.status = msg.Status(Code.CANCELLED, "cancelled")
-                self._server.set_preempted(self._result)
+                self.result.status = msg.Status(Code.CANCELLED, "cancelled")
+                self._server.set_preempted(self.result)
                 return
-        self._result.status = self.status
-        self._server.set_succeeded(self._result)
+        self.result.status = self.status
+        self._server.set_succeeded(self.result)
 
     def silence(self):
         """As if the node had died."""
@@ -127,3 +127,4 @@ class FakeJobs:
             job.gate.set()
             job.started.clear()
             job.goals = []
+        self.align.result.left_out_reasons = []

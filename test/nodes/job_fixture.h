@@ -32,18 +32,20 @@ inline geometry::PinholeCamera smallCamera()
   return test_support::vgaCamera().scaled(0.5);
 }
 
-/// A session all round the box, without masks.
-inline void record(ros_bridge::RemoteSessionStore& store, const std::string& session_id, int keyframe_count)
+/// A session all round the first object of the scene, without masks.
+inline void record(ros_bridge::RemoteSessionStore& store, const std::string& session_id, int keyframe_count,
+                   const test_support::SyntheticScene& scene = test_support::boxOnTable(),
+                   const std::string& object_id = "")
 {
   keyframes::Session session;
   session.id = session_id;
+  session.object_id = object_id;
   session.camera_frame_id = "camera_optical";
   store.createSession(session);
   if (keyframe_count == 0)
     return;
-  for (rgbd::Keyframe& keyframe :
-       test_support::renderKeyframes(test_support::boxOnTable(), smallCamera(),
-                                     test_support::orbitPoses(keyframe_count, { 0, 0, 0.1 }, 0.7, 0.6)))
+  for (rgbd::Keyframe& keyframe : test_support::renderKeyframes(
+           scene, smallCamera(), test_support::orbitPoses(keyframe_count, { 0, 0, 0.1 }, 0.7, 0.6)))
   {
     keyframe.frame.object_mask.release();
     keyframe.frame.stamp_s = 100 + keyframe.id;

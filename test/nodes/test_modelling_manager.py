@@ -169,11 +169,22 @@ class BuildTest(ManagerTest):
         self.recording.add("s1", "mug")
         self.recording.add("s2", "mug")
         self.jobs.align.status = msg.Status(Code.OK, "left out: session 's2'")
-        self.jobs.build.status = msg.Status(Code.OK, "no report")
+        self.jobs.align.result.left_out_reasons = [msg.SessionLeftOut("s2", "with 's1': too little")]
+        self.jobs.build.status = msg.Status(Code.OK, "PARTIAL")
         answer = self.build(wait=True)
-        self.assertEqual(answer.status.message, "left out: session 's2'; no report")
+        self.assertEqual(self.jobs.align.goals[0].required, msg.AlignGoal.REQUIRE_ONE)
+        self.assertEqual(self.jobs.build.goals[0].left_out, [msg.SessionLeftOut("s2", "with 's1': too little")])
+        self.assertEqual(answer.status.message, "PARTIAL; left out: session 's2'")
         self.wait_until(lambda: self.state.status.message == answer.status.message, "the note in ~state")
         self.assertEqual(self.state.status.code, Code.OK)
+
+    def test_all_sessions_can_be_required(self):
+        self.recording.add("s1", "mug")
+        self.jobs.align.status = msg.Status(Code.NO_RESULT, "all sessions were required")
+        self.refused(Code.NO_RESULT, "align: all sessions", "build_object", srv.BuildObject, object_id="mug", wait=True,
+                     require_all=True)
+        self.assertEqual(self.jobs.align.goals[0].required, msg.AlignGoal.REQUIRE_ALL)
+        self.assertEqual(self.jobs.build.goals, [])
 
     def test_the_last_session_without_object_is_taken(self):
         self.start("s7")

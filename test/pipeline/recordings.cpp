@@ -118,7 +118,8 @@ keyframes::Session named(const std::string& session_id)
   return session;
 }
 
-void storeRenderedSession(keyframes::SessionStore& store, const std::string& session_id, int view_count)
+void storeRenderedSession(keyframes::SessionStore& store, const std::string& session_id, int view_count,
+                          const test_support::SyntheticScene& scene)
 {
   keyframes::Session session = named(session_id);
   session.camera_frame_id = "camera_optical";
@@ -126,8 +127,7 @@ void storeRenderedSession(keyframes::SessionStore& store, const std::string& ses
   session.support_plane_session = geometry::Plane{ Eigen::Vector3d::UnitZ(), 0 };
   store.createSession(session);
   const std::vector<Eigen::Isometry3d> poses = test_support::orbitPoses(view_count, { 0, 0, 0.08 }, 0.6);
-  for (const rgbd::Keyframe& keyframe :
-       test_support::renderKeyframes(test_support::boxOnTable(), smallCamera(), poses, sensorNoise(1)))
+  for (const rgbd::Keyframe& keyframe : test_support::renderKeyframes(scene, smallCamera(), poses, sensorNoise(1)))
     store.addKeyframe(session_id, keyframe);
 }
 

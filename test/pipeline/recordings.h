@@ -57,8 +57,9 @@ void removeDepth(rgbd::RawFrame* raw);
 
 keyframes::Session named(const std::string& session_id);
 
-/// Views of the box all round with exact poses, masks and support plane; the session frame is the world frame.
-void storeRenderedSession(keyframes::SessionStore& store, const std::string& session_id, int view_count = 12);
+/// Views of the first object all round with exact poses, masks and support plane; the session frame is the world frame.
+void storeRenderedSession(keyframes::SessionStore& store, const std::string& session_id, int view_count = 12,
+                          const test_support::SyntheticScene& scene = test_support::boxOnTable());
 
 /// Largest distance and angle between a trajectory and the truth, both with respect to their first pose.
 struct TrajectoryError

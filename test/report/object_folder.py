@@ -99,12 +99,13 @@ def quality():
                          "eigen": "3.4.0"}}
 
 
-def make(folder, name="A box", figures=None):
+def make(folder, name="A box", figures=None, **more):
+    """`more` are further keys of object.yaml."""
     os.makedirs(os.path.join(folder, "mesh"))
     with open(os.path.join(folder, "mesh", "textured.glb"), "wb") as file:
         file.write(glb(*box_mesh()))
     cv2.imwrite(os.path.join(folder, "turntable.png"), np.full((40, 320, 3), 200, np.uint8))
-    for file, content in (("object.yaml", {"id": "box", "name": name}), ("quality.yaml", figures or quality())):
+    for file, content in (("object.yaml", dict(more, id="box", name=name)), ("quality.yaml", figures or quality())):
         with open(os.path.join(folder, file), "w") as text:
             yaml.safe_dump(content, text)
     return folder

@@ -67,6 +67,16 @@ class PageTest(unittest.TestCase):
         for hostile in ("<b>x", "<img src=x>", "<i>"):
             self.assertNotIn(hostile, text)
 
+    def test_a_partial_object_says_what_it_lacks(self):
+        self.assertNotIn('id="partial"', self.page())  # an object of before: nothing is known of it
+        left_out = [{"id": "side", "reason": "with 'up': <b>too little</b> in common"}]
+        text = page.render(ObjectData(object_folder.make(self.folder + "2", partial=True, sessions_left_out=left_out)))
+        self.assertIn('id="partial"', text)
+        self.assertIn("Made from 2 of 3 sessions", text)
+        self.assertIn("<code>side</code>: with &#39;up&#39;: &lt;b&gt;too little", text)
+        with self.assertRaisesRegex(ReportError, "object.yaml"):
+            ObjectData(object_folder.make(self.folder + "3", sessions_left_out=[{"id": "side"}]))
+
     def test_traffic_lights(self):
         def light(**arguments):
             return Keyframe("up", 0, object_folder.residual(0, **arguments)).light

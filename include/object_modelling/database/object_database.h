@@ -15,6 +15,8 @@ struct ObjectEntry
   std::string id, name;
   std::string content_hash;  ///< SHA-256 of object.yaml, which holds that of every other file
   std::vector<ModelSession> sessions;
+  bool partial = false;                              ///< made without some of the object's sessions ...
+  std::vector<LeftOutSession> sessions_left_out;     ///< ... which are these
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  ///< of box_model
   geometry::OrientedBox box_model;
   double diameter_m = 0;

@@ -20,6 +20,13 @@ struct ModelSession
   int keyframe_count = 0;
 };
 
+/// A session of the object that its model does without, since it could not be placed beside the others.
+struct LeftOutSession
+{
+  std::string id;
+  std::string reason;  ///< for people
+};
+
 /// One object as the database holds it. Object frame: origin at the centre of the oriented bounding box, z up in the
 /// first resting pose. Metres.
 struct ObjectModel
@@ -27,6 +34,7 @@ struct ObjectModel
   std::string id;
   std::string name;  ///< for people; the id where none was given
   std::vector<ModelSession> sessions;
+  std::vector<LeftOutSession> sessions_left_out;  ///< the model is partial where there are any
   geometry::OrientedBox box_model;
   double diameter_m = 0;                           ///< largest distance between two surface points
   std::vector<Eigen::Isometry3d> T_support_model;  ///< resting poses: z up, support at z = 0

@@ -7,6 +7,7 @@
 #include "object_modelling/alignment/session_alignment.h"
 #include "object_modelling/base/job_control.h"
 #include "object_modelling/keyframes/session_store.h"
+#include "object_modelling/pipeline/partial_object.h"
 
 // Alignment of stored sessions. What is found for a pair, and what a person decides, is kept in the store: the next
 // alignment begins with it. All throw base::Error for store errors.
@@ -17,6 +18,7 @@ struct AlignOptions
   alignment::PartialModelOptions part;
   alignment::PairAlignmentOptions pair;
   bool use_known = true;  ///< false: every pair that no person decided is searched anew
+  Required required = Required::TWO;
   std::vector<std::string> violations() const;
 };
 
@@ -30,7 +32,7 @@ std::vector<alignment::PartialModel> loadParts(keyframes::SessionStore& store,
                                                base::JobControl& control);
 
 /// Places the sessions of one object relative to the first that fits another (the model frame is set when the object is
-/// built), and keeps what was found for every pair. Where it cannot be kept, the message of an OK says so.
+/// built), and keeps what was found for every pair, refused ones too. Where it cannot be kept, the message says so.
 alignment::AlignmentResult alignParts(keyframes::SessionStore& store, const std::vector<alignment::PartialModel>& parts,
                                       const AlignOptions& options, base::JobControl& control);
 

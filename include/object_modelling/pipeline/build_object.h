@@ -21,12 +21,14 @@ struct BuildOptions
   surface::TextureOptions texture;
   bool replace = false;     ///< allow another object frame for an object that exists with none of these sessions
   bool make_report = true;  ///< report.html, which takes a few seconds
+  /// Sessions of the object that `placements` lacks, from leftOutOf(): with any, the object is partial, and says so.
+  std::vector<database::LeftOutSession> left_out;
   std::vector<std::string> violations() const;
 };
 
 struct BuildReport
 {
-  base::Status status;  ///< OK with a message: the model is there, its report.html is not
+  base::Status status;  ///< OK with a message: the model is there, but partial, or without texture or report.html
   std::string object_folder;
   std::string preview_path;                          ///< PNG of four sides, inside the object's folder
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  ///< along the object frame's x, y, z
@@ -36,8 +38,9 @@ struct BuildReport
 };
 
 /// Fused cloud, mesh, texture, views and report of one object from its placed sessions, written into the database in
-/// one atomic step; sets object_id and T_model_session of the sessions in the store. Refuses with the reason: no
-/// session, no keyframes, no masks, an existing object in another frame (unless `replace`).
+/// one atomic step; sets object_id and T_model_session of the sessions in the store (no T_model_session of those left
+/// out). Refuses with the reason: no session, no keyframes, no masks, an existing object in another frame (unless
+/// `replace`).
 BuildReport buildObject(keyframes::SessionStore& store, database::ObjectDatabase& database,
                         const std::string& object_id, const std::string& name,
                         const std::vector<alignment::SessionPlacement>& placements, const BuildOptions& options,

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "../common/data_path.h"
+#include "left_out_message.h"
 #include "object_modelling/ros_bridge/pose_conversion.h"
 
 namespace object_modelling::nodes
@@ -29,6 +30,9 @@ object_modelling::ObjectSummary toMessage(const database::ObjectEntry& entry)
     message.session_ids.push_back(session.id);
   message.content_hash = entry.content_hash;
   message.mesh_path = entry.mesh_path;
+  message.partial = entry.partial;
+  for (const database::LeftOutSession& session : entry.sessions_left_out)
+    message.left_out.push_back(leftOutMessage(session));
   return message;
 }
 
@@ -91,6 +95,8 @@ object_modelling::BuildResult ModelBuilder::build(const object_modelling::BuildG
   database::ObjectDatabase database(database_path_, true);
   pipeline::BuildOptions build_options = options_.build;
   build_options.replace = goal.replace;
+  for (const object_modelling::SessionLeftOut& session : goal.left_out)
+    build_options.left_out.push_back(leftOutFrom(session));
   const pipeline::BuildReport report =
       pipeline::buildObject(store_, database, goal.object_id, goal.name, placements, build_options, control);
   object_modelling::BuildResult result;
@@ -98,6 +104,8 @@ object_modelling::BuildResult ModelBuilder::build(const object_modelling::BuildG
   if (!report.status.ok())
     return result;
   result.built = toMessage(report, goal.object_id);
+  result.built.partial = !goal.left_out.empty();
+  result.built.left_out = goal.left_out;
   const database::ObjectEntry entry = database.entry(goal.object_id);
   result.built.mesh_path = entry.mesh_path;
   const base::Status shown = ros_bridge::guarded([&] { preview_.show(entry, placements.back().session_id); });

@@ -16,8 +16,11 @@ public:
 private:
   object_modelling::AlignResult align(const object_modelling::AlignGoal& goal, base::JobControl& control);
   alignment::AlignmentResult aligned(const object_modelling::AlignGoal& goal, base::JobControl& control);
+  /// What a person can do so that the sessions left out take part.
+  std::string remedyFor(const alignment::AlignmentResult& result) const;
 
   SessionAlignerOptions options_;
+  std::string name_;  ///< of the node, in messages to people
   ros_bridge::RemoteSessionStore store_;
   AlignmentReview review_;
   JobServer<object_modelling::AlignAction> server_;

@@ -59,6 +59,9 @@ class ObjectData:
         try:
             self.keyframes = _keyframes(self.quality)
             self.id, self.name = str(self.object["id"]), str(self.object["name"])
+            # Objects of before lack it.
+            self.left_out = [(str(session["id"]), str(session["reason"]))
+                             for session in self.object.get("sessions_left_out", [])]
         except (KeyError, TypeError, AttributeError) as error:
             raise ReportError("%s: quality.yaml or object.yaml lacks %s; build the object anew" % (folder, error)) \
                 from error

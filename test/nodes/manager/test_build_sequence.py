@@ -8,6 +8,9 @@ Session = collections.namedtuple(
     "Session", "session_id object_id keyframe_count refinement_report has_support_plane", defaults=("", False))
 
 
+Request = collections.namedtuple("Request", "object_id name replace again require_all")
+
+
 class FakeJobs:
     """Records what is called; `fails` names the stage that raises."""
 
@@ -16,6 +19,7 @@ class FakeJobs:
         self.fails = fails
         self.calls = []
         self.notes = ("", "")
+        self.left_out = []
 
     def list_sessions(self):
         return self.sessions
@@ -39,11 +43,14 @@ class FakeJobs:
     def segment(self, session_id, progress):
         self._run("segment", session_id, progress)
 
-    def align(self, ids, progress):
-        return self._run("align", tuple(ids), progress, ["placement of " + name for name in ids]), self.notes[0]
+    def align(self, ids, require_all, progress):
+        self.require_all = require_all
+        placed = ["placement of " + name for name in ids if name not in self.left_out]
+        return self._run("align", tuple(ids), progress, placed), self.left_out, self.notes[0]
 
-    def build(self, object_id, name, placements, replace, progress):
-        return self._run("build", (object_id, name, tuple(placements), replace), progress, "built"), self.notes[1]
+    def build(self, object_id, name, placements, left_out, replace, progress):
+        what = (object_id, name, tuple(placements), tuple(left_out), replace)
+        return self._run("build", what, progress, "built"), self.notes[1]
 
 
 class ChooseSessionsTest(unittest.TestCase):
@@ -93,9 +100,10 @@ class BuildTest(unittest.TestCase):
     def setUp(self):
         self.new = [Session("a", "mug", 5), Session("b", "mug", 6)]
 
-    def build(self, jobs, progress=lambda stage, step, done, total: None, again=False):
+    def build(self, jobs, progress=lambda stage, step, done, total: None, again=False, require_all=False):
         ticks = iter(range(100))
-        return build_sequence.build(jobs, "mug", "Mug", ["a", "b"], True, again, progress, lambda: next(ticks))
+        request = Request("mug", "Mug", True, again, require_all)
+        return build_sequence.build(jobs, request, ["a", "b"], progress, lambda: next(ticks))
 
     def test_what_was_refined_or_segmented_stays(self):
         jobs = FakeJobs([Session("a", "mug", 5, "report", True), Session("b", "mug", 6, "report", False)])
@@ -119,13 +127,30 @@ class BuildTest(unittest.TestCase):
         self.assertEqual(
             jobs.calls,
             [("refine", ("a", "b")), ("segment", "a"), ("segment", "b"), ("align", ("a", "b")),
-             ("build", ("mug", "Mug", ("placement of a", "placement of b"), True))])
+             ("build", ("mug", "Mug", ("placement of a", "placement of b"), (), True))])
 
     def test_notes_are_joined(self):
         jobs = FakeJobs(self.new)
-        for notes, expected in ((("left out", ""), "left out"), (("left out", "no report"), "left out; no report")):
+        for notes, expected in ((("left out", ""), "left out"), (("left out", "PARTIAL"), "PARTIAL; left out")):
             jobs.notes = notes
             self.assertEqual(self.build(jobs)[2], expected)
+
+    def test_what_is_left_out_reaches_the_builder(self):
+        jobs = FakeJobs(self.new)
+        jobs.left_out = ["b"]
+        self.build(jobs)
+        self.assertEqual(jobs.calls[-1], ("build", ("mug", "Mug", ("placement of a",), ("b",), True)))
+        self.assertFalse(jobs.require_all)
+        self.build(jobs, require_all=True)
+        self.assertTrue(jobs.require_all)
+
+    def test_a_build_that_fails_tells_what_was_left_out(self):
+        jobs = FakeJobs(self.new, fails="build")
+        jobs.left_out, jobs.notes = ["b"], ("left out: b", "")
+        with self.assertRaises(Failure) as caught:
+            self.build(jobs)
+        self.assertEqual(caught.exception.message, "build failed; left out: b")
+        self.assertEqual(caught.exception.code, Code.NO_RESULT)
 
     def test_progress(self):
         reports = []

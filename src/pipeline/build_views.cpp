@@ -1,0 +1,59 @@
+#include "build_views.h"
+
+#include "object_modelling/geometry/plane.h"
+
+namespace object_modelling::pipeline
+{
+std::optional<geometry::Plane> Views::firstSupport() const
+{
+  return support_planes_reference.empty() ? std::nullopt : std::make_optional(support_planes_reference.front());
+}
+
+std::optional<geometry::Plane> Views::onlySupport() const
+{
+  return sessions.size() == 1 ? firstSupport() : std::nullopt;
+}
+
+Eigen::Vector2d Views::meanColorOffset_px() const
+{
+  Eigen::Vector2d sum_px = Eigen::Vector2d::Zero();
+  for (const keyframes::Session& session : sessions)
+    sum_px += session.calibration.color_offset_px;
+  return sum_px / static_cast<double>(sessions.size());
+}
+
+base::Status loadViews(keyframes::SessionStore& store, const std::vector<alignment::SessionPlacement>& placements,
+                       base::JobControl& control, Views* views)
+{
+  for (const alignment::SessionPlacement& placement : placements)
+  {
+    views->sessions.push_back(store.session(placement.session_id));
+    const std::vector<int> ids = store.keyframeIds(placement.session_id);
+    if (ids.empty())
+      return { base::StatusCode::FAILED_PRECONDITION,
+               "session '" + placement.session_id + "' has no keyframes: record it before building" };
+    std::size_t masked = 0;
+    for (const int id : ids)
+    {
+      control.report("load", masked, ids.size());
+      rgbd::Keyframe keyframe = store.keyframe(placement.session_id, id);
+      if (keyframe.frame.object_mask.empty())
+        continue;
+      views->origins.push_back({ placement.session_id, id });
+      views->lights.push_back(static_cast<int>(views->sessions.size()) - 1);
+      keyframe.id = static_cast<int>(views->keyframes.size());
+      keyframe.T_session_camera = placement.T_reference_session * keyframe.T_session_camera;
+      views->keyframes.push_back(std::move(keyframe));
+      ++masked;
+    }
+    if (masked == 0)
+      return { base::StatusCode::FAILED_PRECONDITION,
+               "none of the " + std::to_string(ids.size()) + " keyframes of session '" + placement.session_id +
+                   "' has an object mask: select the object (segmenter) before building" };
+    if (const std::optional<geometry::Plane>& plane = views->sessions.back().support_plane_session)
+      views->support_planes_reference.push_back(geometry::transformed(placement.T_reference_session, *plane));
+  }
+  return {};
+}
+
+}  // namespace object_modelling::pipeline

@@ -1,0 +1,89 @@
+#include "model_description.h"
+
+#include "object_modelling/geometry/plane.h"
+
+namespace object_modelling::pipeline
+{
+namespace
+{
+std::optional<database::ObjectEntry> existingEntry(const database::ObjectDatabase& database, const std::string& id)
+{
+  for (database::ObjectEntry& entry : database.list())
+    if (entry.id == id)
+      return std::move(entry);
+  return std::nullopt;
+}
+}  // namespace
+
+base::Result<std::optional<Eigen::Isometry3d>> inheritedFrame(
+    const database::ObjectDatabase& database, const std::string& object_id,
+    const std::vector<alignment::SessionPlacement>& placements, bool replace)
+{
+  const std::optional<database::ObjectEntry> existing = existingEntry(database, object_id);
+  if (!existing)
+    return {};
+  for (const database::ModelSession& known : existing->sessions)
+    for (const alignment::SessionPlacement& placement : placements)
+      if (known.id == placement.session_id)
+        return { {}, known.T_model_session * placement.T_reference_session.inverse() };
+  if (replace)
+    return {};
+  return { { base::StatusCode::FAILED_PRECONDITION,
+             "object '" + object_id +
+                 "' exists and was built from other sessions, so its frame (and grasps annotated in it) would change: "
+                 "choose another object id, or build with replace" },
+           {} };
+}
+
+void describe(const Views& views, const std::vector<alignment::SessionPlacement>& placements,
+              const Eigen::Isometry3d& T_model_reference, const geometry::OrientedBox& box_reference,
+              database::ObjectModel* model)
+{
+  model->box_model = box_reference;
+  model->box_model.T_frame_box = T_model_reference * box_reference.T_frame_box;
+  for (const geometry::Plane& plane : views.support_planes_reference)
+  {
+    // A resting pose of the recordings: model frame lifted to stand on z = 0.
+    const geometry::Plane plane_model = geometry::transformed(T_model_reference, plane);
+    Eigen::Isometry3d T_support_model = Eigen::Isometry3d::Identity();
+    T_support_model.linear() =
+        Eigen::Quaterniond::FromTwoVectors(plane_model.normal, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    T_support_model.translation().z() = plane_model.offset_m;
+    model->T_support_model.push_back(T_support_model);
+  }
+  for (std::size_t i = 0; i < placements.size(); ++i)
+    model->sessions.push_back({ placements[i].session_id, T_model_reference * placements[i].T_reference_session,
+                                views.sessions[i].keyframe_count });
+}
+
+std::string partialText(const database::ObjectModel& model)
+{
+  if (model.sessions_left_out.empty())
+    return {};
+  std::string without;
+  for (const database::LeftOutSession& session : model.sessions_left_out)
+    without += (without.empty() ? "'" : ", '") + session.id + "'";
+  return "PARTIAL: object '" + model.id + "' is built from " + std::to_string(model.sessions.size()) + " of its " +
+         std::to_string(model.sessions.size() + model.sessions_left_out.size()) + " sessions, without " + without;
+}
+
+void updateSessions(keyframes::SessionStore& store, const database::ObjectModel& model, Views* views)
+{
+  for (std::size_t i = 0; i < views->sessions.size(); ++i)
+  {
+    views->sessions[i].object_id = model.id;
+    views->sessions[i].T_model_session = model.sessions[i].T_model_session;
+    store.updateSession(views->sessions[i]);
+  }
+  for (const database::LeftOutSession& left_out : model.sessions_left_out)
+  {
+    keyframes::Session session = store.session(left_out.id);
+    if (!session.object_id.empty() && session.object_id != model.id)
+      continue;  // another object's
+    session.object_id = model.id;
+    session.T_model_session.reset();
+    store.updateSession(session);
+  }
+}
+
+}  // namespace object_modelling::pipeline
