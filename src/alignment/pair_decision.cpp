@@ -18,6 +18,7 @@ constexpr double SAME_SHAPE_SPACINGS = 1.5;  // distance of surfaces that are th
 constexpr double MAX_STRAY_RATIO = 0.04;     // of the points that may be where nothing is if such a surface is
 constexpr double MAX_UNKNOWN_RATIO = 0.15;   // of those that may be beside it where nobody looked
 constexpr double SAME_COLOR = 0.1;           // rms difference of colours that are the same, with noise and light
+constexpr double HARDLY_AGAINST = -1;        // what a figure takes off the log odds, to be named as the reason
 constexpr double MAX_LOG_ODDS = 500;         // exponents beyond overflow
 constexpr double ASKED_PROBABILITY = 0.1;    // of the same pose: below it no such pose is taken unasked
 
@@ -56,14 +57,20 @@ std::string whyUnlikely(const PairQuality& quality, const PairAlignmentOptions& 
   const double color = of(Feature::PRINT) + of(Feature::COLOR) + of(Feature::EDGES);
   const double space = of(Feature::SPACE) + of(Feature::THROUGH);
   const double turn = turnPrior(quality, options.same_pose_probability);
-  const double worst = std::min({ space, of(Feature::CONTACT), color, turn });
-  if (worst == turn && turn < 0)
+  const double worst = std::min({ space, of(Feature::CONTACT), of(Feature::FIT), color, turn });
+  if (worst > HARDLY_AGAINST)
+    return "the best pose is right with a probability of " + percent(quality.probability) + " only (at least " +
+           percent(options.min_probability) +
+           " is needed): nothing speaks against it, but too little for it; record more of what both sessions see, or "
+           "lean "
+           "the object so that a printed face is seen in both";
+  if (worst == turn)
     return NOT_TURNED;
-  if (worst == color && color < 0)
+  if (worst == color)
     return "colours disagree (correlation " + percent(quality.color_agreement) + " over the common surface)" + REMEDY;
   if (worst == of(Feature::CONTACT))
     return "the object would be " + millimetres(quality.contact_gap_m) + " off what it stood on" + REMEDY;
-  if (worst == space && quality.fsv_ratio > 0)
+  if (worst == space)
     return percent(quality.fsv_ratio) + " of the surface would be where the other session saw that nothing is" + REMEDY;
   return "surfaces are " + millimetres(quality.rmse_m) + " apart" + REMEDY;
 }

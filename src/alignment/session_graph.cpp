@@ -2,147 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 
+#include "edge_graph.h"
 #include "object_modelling/geometry/transform.h"
 
 namespace object_modelling::alignment
 {
 namespace
 {
-constexpr double MAX_CYCLE_ROTATION_RAD = 0.09;   // 5 deg ...
-constexpr double MAX_CYCLE_TRANSLATION_M = 0.01;  // ... of the object
-constexpr double CHANCE = 0.05;                   // that poses of two edges agree though they are wrong
-constexpr double CERTAIN = 1e-6;                  // left to doubt by a person's word
-constexpr double DOUBT = 3e-3;                    // left to it at least by what was found
-constexpr double REFUSED_RATIO = 0.9;             // of what is needed: at most, of an edge that was refused
-constexpr std::size_t TRIED_STARTS = 3;           // poses of each edge that a placement begins with
-
-/// By how much two poses of one part differ.
-struct Off
-{
-  double rotation_rad = 0, translation_m = 0;  ///< translation: of the part's centre
-
-  bool small() const { return rotation_rad <= MAX_CYCLE_ROTATION_RAD && translation_m <= MAX_CYCLE_TRANSLATION_M; }
-  std::string text() const
-  {
-    return std::to_string(std::lround(rotation_rad * 180 / M_PI)) + " deg and " +
-           std::to_string(std::lround(translation_m * 1000)) + " mm";
-  }
-};
-
-/// A pose of a session, by the edge that it comes from.
-struct Pose
-{
-  Eigen::Isometry3d T_reference_session = Eigen::Isometry3d::Identity();
-  int edge = -1;
-  double probability = 1;  ///< by that edge alone
-};
-
-using Placement = std::map<int, Pose>;  ///< by session
-
-class Graph
-{
-public:
-  Graph(const std::vector<PartialModel>& parts, double min_probability, const std::vector<AlignmentEdge>& edges)
-      : edges_(edges), refused_probability_(REFUSED_RATIO * min_probability)
-  {
-    std::map<std::string, int> index_of;
-    for (const PartialModel& part : parts)
-    {
-      index_of[part.session_id] = static_cast<int>(centres_.size());
-      centres_.emplace_back(part.centre().cast<double>());
-    }
-    for (const AlignmentEdge& edge : edges)
-      ends_.emplace_back(index_of.at(edge.session_a), index_of.at(edge.session_b));
-  }
-
-  int sessions() const { return static_cast<int>(centres_.size()); }
-  int edges() const { return static_cast<int>(edges_.size()); }
-  const std::pair<int, int>& ends(int edge) const { return ends_[edge]; }
-  bool usable(int edge) const { return edges_[edge].best() && edges_[edge].decision != Decision::REFUSED; }
-
-  double probability(int edge, std::size_t candidate) const
-  {
-    if (edges_[edge].decision == Decision::ACCEPTED)
-      return candidate == 0 ? 1 - CERTAIN : 0;
-    const double found = edges_[edge].candidates[candidate].quality.probability;
-    return std::min(found, edges_[edge].accepted ? 1 - DOUBT : refused_probability_);
-  }
-
-  /// Pose of session `to` by an edge, from that of the session at its other end.
-  Eigen::Isometry3d along(int edge, std::size_t candidate, int to, const Eigen::Isometry3d& T_reference_from) const
-  {
-    const Eigen::Isometry3d& T_a_b = edges_[edge].candidates[candidate].T_a_b;
-    return T_reference_from * (to == ends_[edge].second ? T_a_b : T_a_b.inverse());
-  }
-
-  Off offBetween(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other, int session) const
-  {
-    return { geometry::rotationAngle_rad(one.inverse() * other),
-             (one * centres_[session] - other * centres_[session]).norm() };
-  }
-
-  /// The edge's most probable pose that is the one given; none if there is none.
-  std::optional<std::size_t> agreeing(int edge, const Placement& placed) const
-  {
-    const auto& [a, b] = ends_[edge];
-    return agreeing(edge, b, placed.at(b).T_reference_session, placed.at(a));
-  }
-  std::optional<std::size_t> agreeing(int edge, int to, const Eigen::Isometry3d& T_reference_to, const Pose& from) const
-  {
-    std::optional<std::size_t> best;
-    for (std::size_t k = 0; k < candidates(edge); ++k)
-      if ((!best || probability(edge, k) > probability(edge, *best)) &&
-          offBetween(along(edge, k, to, from.T_reference_session), T_reference_to, to).small())
-        best = k;
-    return best && probability(edge, *best) / CHANCE > doubt(edge) ? best : std::nullopt;
-  }
-  /// By how much an edge's best pose contradicts the placement.
-  Off contradiction(int edge, const Placement& placed) const
-  {
-    const auto& [a, b] = ends_[edge];
-    return offBetween(along(edge, 0, b, placed.at(a).T_reference_session), placed.at(b).T_reference_session, b);
-  }
-
-  double doubt(int edge) const { return 1 - probability(edge, 0); }
-
-  /// What an edge makes of a pose, against chance.
-  double support(int edge, const std::optional<std::size_t>& agreeing) const
-  {
-    return agreeing ? probability(edge, *agreeing) / CHANCE : doubt(edge);
-  }
-  std::size_t candidates(int edge) const
-  {
-    const std::size_t all = edges_[edge].candidates.size();
-    return edges_[edge].decision == Decision::ACCEPTED ? std::min<std::size_t>(all, 1) : all;
-  }
-  bool holds(int edge, const Placement& placed) const
-  {
-    return placed.count(ends_[edge].first) && placed.count(ends_[edge].second);
-  }
-  int otherEnd(int edge, int session) const
-  {
-    return ends_[edge].first == session ? ends_[edge].second : ends_[edge].first;
-  }
-  /// Usable edges between a session and those placed.
-  std::vector<int> edgesTo(int session, const Placement& placed) const
-  {
-    std::vector<int> result;
-    for (int edge = 0; edge < edges(); ++edge)
-      if (usable(edge) && (ends_[edge].first == session || ends_[edge].second == session) &&
-          placed.count(otherEnd(edge, session)))
-        result.push_back(edge);
-    return result;
-  }
-
-private:
-  const std::vector<AlignmentEdge>& edges_;
-  double refused_probability_;
-  std::vector<Eigen::Vector3d> centres_;
-  std::vector<std::pair<int, int>> ends_;
-};
+constexpr std::size_t TRIED_STARTS = 3;  // poses of each edge that a placement begins with
 
 /// What the edges to the placed sessions make of a pose of one session.
 struct Hypothesis
@@ -152,7 +21,7 @@ struct Hypothesis
   double odds = 0;
 };
 
-std::vector<Hypothesis> hypothesesOf(const Graph& graph, int session, const std::vector<int>& edges,
+std::vector<Hypothesis> hypothesesOf(const EdgeGraph& graph, int session, const std::vector<int>& edges,
                                      const Placement& placed)
 {
   std::vector<Hypothesis> result;
@@ -164,7 +33,7 @@ std::vector<Hypothesis> hypothesesOf(const Graph& graph, int session, const std:
       const auto known = std::find_if(
           result.begin(), result.end(),
           [&](const Hypothesis& other)
-          { return graph.offBetween(other.pose.T_reference_session, pose.T_reference_session, session).small(); });
+          { return graph.between(other.pose.T_reference_session, pose.T_reference_session, session).small(); });
       if (known == result.end())
         result.push_back({ pose, {} });
       else if (pose.probability > known->pose.probability)
@@ -193,7 +62,7 @@ struct Choice
 };
 
 /// The most probable pose of a session. Poses that every edge holds for as good make the same object.
-Choice bestPose(const Graph& graph, int session, const Placement& placed)
+Choice bestPose(const EdgeGraph& graph, int session, const Placement& placed)
 {
   const std::vector<int> edges = graph.edgesTo(session, placed);
   const std::vector<Hypothesis> hypotheses = hypothesesOf(graph, session, edges, placed);
@@ -211,7 +80,7 @@ Choice bestPose(const Graph& graph, int session, const Placement& placed)
 }
 
 /// Places one session after the other, the most probable first.
-void complete(const Graph& graph, double min_probability, Placement* placed)
+void complete(const EdgeGraph& graph, double min_probability, Placement* placed)
 {
   while (true)
   {
@@ -235,7 +104,7 @@ void complete(const Graph& graph, double min_probability, Placement* placed)
 }
 
 /// Logarithm of the odds of a placement, up to what all placements share.
-double logOddsOf(const Graph& graph, const Placement& placed)
+double logOddsOf(const EdgeGraph& graph, const Placement& placed)
 {
   double sum = (static_cast<double>(placed.size()) - 1) * std::log(CHANCE);
   for (int edge = 0; edge < graph.edges(); ++edge)
@@ -248,7 +117,7 @@ double logOddsOf(const Graph& graph, const Placement& placed)
 }
 
 /// Takes out, the least probable first, what the others do not bear out, and puts the rest where they say.
-void settle(const Graph& graph, double min_probability, Placement* placed)
+void settle(const EdgeGraph& graph, double min_probability, Placement* placed)
 {
   while (placed->size() > 2)
   {
@@ -259,7 +128,7 @@ void settle(const Graph& graph, double min_probability, Placement* placed)
       Placement others = *placed;
       others.erase(session);
       const Choice choice = bestPose(graph, session, others);
-      const bool stays = graph.offBetween(choice.pose.T_reference_session, pose.T_reference_session, session).small();
+      const bool stays = graph.between(choice.pose.T_reference_session, pose.T_reference_session, session).small();
       if ((stays ? choice.probability : 0) < least_probability)
       {
         least = session;
@@ -272,7 +141,7 @@ void settle(const Graph& graph, double min_probability, Placement* placed)
   }
 }
 
-Placement bestPlacement(const Graph& graph, double min_probability)
+Placement bestPlacement(const EdgeGraph& graph, double min_probability)
 {
   Placement best;
   double best_log_odds = 0;
@@ -297,7 +166,7 @@ Placement bestPlacement(const Graph& graph, double min_probability)
 }
 
 /// The maximum spanning tree on the probability, of the edges that agree (Kruskal 1956).
-std::vector<int> treeOf(const Graph& graph, const Placement& placed)
+std::vector<int> treeOf(const EdgeGraph& graph, const Placement& placed)
 {
   std::vector<int> order, tree;
   for (int edge = 0; edge < graph.edges(); ++edge)
@@ -322,7 +191,7 @@ std::vector<int> treeOf(const Graph& graph, const Placement& placed)
 }
 
 /// The sessions that the tree connects to the first one, in its frame.
-Placement placedBy(const Graph& graph, const std::vector<int>& tree, const Placement& near)
+Placement placedBy(const EdgeGraph& graph, const std::vector<int>& tree, const Placement& near)
 {
   Placement placed;
   if (near.empty())
@@ -347,7 +216,7 @@ Placement placedBy(const Graph& graph, const std::vector<int>& tree, const Place
 }
 
 /// Sets what became of each edge. One that agrees by another than its best pose is right by that one.
-void explain(const Graph& graph, const std::vector<int>& tree, const Placement& placed,
+void explain(const EdgeGraph& graph, const std::vector<int>& tree, const Placement& placed,
              std::vector<AlignmentEdge>* edges)
 {
   // First all is looked up: the graph reads the edges that are changed here.
@@ -386,7 +255,7 @@ void explain(const Graph& graph, const std::vector<int>& tree, const Placement& 
 std::vector<SessionPlacement> placeByEdges(const std::vector<PartialModel>& parts, double min_probability,
                                            std::vector<AlignmentEdge>* edges)
 {
-  const Graph graph(parts, min_probability, *edges);
+  const EdgeGraph graph(parts, min_probability, *edges);
   const Placement found = bestPlacement(graph, min_probability);
   const std::vector<int> tree = treeOf(graph, found);
   Placement placed = placedBy(graph, tree, found);

@@ -1,0 +1,119 @@
+#include "edge_graph.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "object_modelling/geometry/transform.h"
+
+namespace object_modelling::alignment
+{
+namespace
+{
+constexpr double MAX_CYCLE_ROTATION_RAD = 0.09;   // 5 deg ...
+constexpr double MAX_CYCLE_TRANSLATION_M = 0.01;  // ... of the object
+constexpr double CERTAIN = 1e-6;                  // left to doubt by a person's word
+constexpr double DOUBT = 3e-3;                    // left to it at least by what was found
+constexpr double REFUSED_RATIO = 0.9;             // of what is needed: at most, of an edge that was refused
+}  // namespace
+
+bool PoseDifference::small() const
+{
+  return rotation_rad <= MAX_CYCLE_ROTATION_RAD && translation_m <= MAX_CYCLE_TRANSLATION_M;
+}
+
+std::string PoseDifference::text() const
+{
+  return std::to_string(std::lround(rotation_rad * 180 / M_PI)) + " deg and " +
+         std::to_string(std::lround(translation_m * 1000)) + " mm";
+}
+
+EdgeGraph::EdgeGraph(const std::vector<PartialModel>& parts, double min_probability,
+                     const std::vector<AlignmentEdge>& edges)
+    : edges_(edges), refused_probability_(REFUSED_RATIO * min_probability)
+{
+  std::map<std::string, int> index_of;
+  for (const PartialModel& part : parts)
+  {
+    index_of[part.session_id] = static_cast<int>(centres_.size());
+    centres_.emplace_back(part.centre().cast<double>());
+  }
+  for (const AlignmentEdge& edge : edges)
+    ends_.emplace_back(index_of.at(edge.session_a), index_of.at(edge.session_b));
+}
+
+int EdgeGraph::otherEnd(int edge, int session) const
+{
+  return ends_[edge].first == session ? ends_[edge].second : ends_[edge].first;
+}
+
+bool EdgeGraph::holds(int edge, const Placement& placed) const
+{
+  return placed.count(ends_[edge].first) && placed.count(ends_[edge].second);
+}
+
+std::vector<int> EdgeGraph::edgesTo(int session, const Placement& placed) const
+{
+  std::vector<int> result;
+  for (int edge = 0; edge < edges(); ++edge)
+    if (usable(edge) && (ends_[edge].first == session || ends_[edge].second == session) &&
+        placed.count(otherEnd(edge, session)))
+      result.push_back(edge);
+  return result;
+}
+
+std::size_t EdgeGraph::candidates(int edge) const
+{
+  const std::size_t all = edges_[edge].candidates.size();
+  return edges_[edge].decision == Decision::ACCEPTED ? std::min<std::size_t>(all, 1) : all;
+}
+
+double EdgeGraph::probability(int edge, std::size_t candidate) const
+{
+  if (edges_[edge].decision == Decision::ACCEPTED)
+    return candidate == 0 ? 1 - CERTAIN : 0;
+  const double found = edges_[edge].candidates[candidate].quality.probability;
+  return std::min(found, edges_[edge].accepted ? 1 - DOUBT : refused_probability_);
+}
+
+double EdgeGraph::support(int edge, const std::optional<std::size_t>& agreeing) const
+{
+  return agreeing ? probability(edge, *agreeing) / CHANCE : doubt(edge);
+}
+
+Eigen::Isometry3d EdgeGraph::along(int edge, std::size_t candidate, int to,
+                                   const Eigen::Isometry3d& T_reference_from) const
+{
+  const Eigen::Isometry3d& T_a_b = edges_[edge].candidates[candidate].T_a_b;
+  return T_reference_from * (to == ends_[edge].second ? T_a_b : T_a_b.inverse());
+}
+
+PoseDifference EdgeGraph::between(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other, int session) const
+{
+  return { geometry::rotationAngle_rad(one.inverse() * other),
+           (one * centres_[session] - other * centres_[session]).norm() };
+}
+
+std::optional<std::size_t> EdgeGraph::agreeing(int edge, int to, const Eigen::Isometry3d& T_reference_to,
+                                               const Pose& from) const
+{
+  std::optional<std::size_t> best;
+  for (std::size_t k = 0; k < candidates(edge); ++k)
+    if ((!best || probability(edge, k) > probability(edge, *best)) &&
+        between(along(edge, k, to, from.T_reference_session), T_reference_to, to).small())
+      best = k;
+  return best && probability(edge, *best) / CHANCE > doubt(edge) ? best : std::nullopt;
+}
+
+std::optional<std::size_t> EdgeGraph::agreeing(int edge, const Placement& placed) const
+{
+  const auto& [a, b] = ends_[edge];
+  return agreeing(edge, b, placed.at(b).T_reference_session, placed.at(a));
+}
+
+PoseDifference EdgeGraph::contradiction(int edge, const Placement& placed) const
+{
+  const auto& [a, b] = ends_[edge];
+  return between(along(edge, 0, b, placed.at(a).T_reference_session), placed.at(b).T_reference_session, b);
+}
+
+}  // namespace object_modelling::alignment

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "object_modelling/alignment/session_alignment.h"
+
+namespace object_modelling::alignment
+{
+constexpr double CHANCE = 0.05;  ///< that poses of two edges agree though they are wrong
+
+/// By how much two poses of one part differ.
+struct PoseDifference
+{
+  double rotation_rad = 0, translation_m = 0;  ///< translation: of the part's centre
+
+  bool small() const;
+  std::string text() const;  ///< "12 deg and 3 mm"
+};
+
+/// A pose of a session, by the edge that it comes from.
+struct Pose
+{
+  Eigen::Isometry3d T_reference_session = Eigen::Isometry3d::Identity();
+  int edge = -1;
+  double probability = 1;  ///< by that edge alone
+};
+
+using Placement = std::map<int, Pose>;  ///< by session
+
+/// Sessions, and what their pairs make of poses. Sessions and edges go by their indices in what it is given; the edges
+/// must outlive it.
+class EdgeGraph
+{
+public:
+  /// `min_probability`: what is needed for an edge to be accepted. One that was refused counts for less.
+  EdgeGraph(const std::vector<PartialModel>& parts, double min_probability, const std::vector<AlignmentEdge>& edges);
+
+  int sessions() const { return static_cast<int>(centres_.size()); }
+  int edges() const { return static_cast<int>(edges_.size()); }
+  const std::pair<int, int>& ends(int edge) const { return ends_[edge]; }
+  int otherEnd(int edge, int session) const;
+  /// Whether an edge has poses that no person refused.
+  bool usable(int edge) const { return edges_[edge].best() && edges_[edge].decision != Decision::REFUSED; }
+  bool holds(int edge, const Placement& placed) const;  ///< both ends are placed
+  /// Usable edges between a session and those placed.
+  std::vector<int> edgesTo(int session, const Placement& placed) const;
+
+  std::size_t candidates(int edge) const;
+  /// A person's word leaves hardly a doubt.
+  double probability(int edge, std::size_t candidate) const;
+  double doubt(int edge) const { return 1 - probability(edge, 0); }
+  /// What an edge makes of a pose, against chance.
+  double support(int edge, const std::optional<std::size_t>& agreeing) const;
+
+  /// Pose of session `to` by an edge, from that of the session at its other end.
+  Eigen::Isometry3d along(int edge, std::size_t candidate, int to, const Eigen::Isometry3d& T_reference_from) const;
+  PoseDifference between(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other, int session) const;
+  /// The edge's most probable pose that is the one given of session `to`; none if there is none.
+  std::optional<std::size_t> agreeing(int edge, int to, const Eigen::Isometry3d& T_reference_to,
+                                      const Pose& from) const;
+  std::optional<std::size_t> agreeing(int edge, const Placement& placed) const;
+  /// By how much an edge's best pose contradicts the placement.
+  PoseDifference contradiction(int edge, const Placement& placed) const;
+
+private:
+  const std::vector<AlignmentEdge>& edges_;
+  double refused_probability_;
+  std::vector<Eigen::Vector3d> centres_;
+  std::vector<std::pair<int, int>> ends_;
+};
+
+}  // namespace object_modelling::alignment
