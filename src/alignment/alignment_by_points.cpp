@@ -43,6 +43,8 @@ PairCandidate alignByPoints(const PartialModel& a, const PartialModel& b, const 
 {
   base::checked(options);
   control.checkCancelled();
+  if (a.points.empty() || b.points.empty())
+    throw refused("session '" + (a.points.empty() ? a : b).session_id + "' shows no point of the object");
   if (pairs.size() < 3)
     throw refused(std::to_string(pairs.size()) + " pairs of points: three are needed");
   Eigen::Matrix3Xd in_a(3, pairs.size()), in_b(3, pairs.size());

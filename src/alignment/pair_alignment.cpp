@@ -162,6 +162,12 @@ PairAlignment alignPair(const PartialModel& a, const PartialModel& b, const Pair
 PairAlignment alignParts(const Part& a, const Part& b, const PairAlignmentOptions& options, base::JobControl& control)
 {
   control.checkCancelled();
+  if (a.many.empty() || b.many.empty())
+  {
+    PairAlignment nothing;
+    nothing.reason = "one of the sessions shows no point of the object: select the object, and record it from nearer";
+    return nothing;
+  }
   const PartPair pair(a, b, options.threads);
   std::vector<Candidate> candidates =
       distinctBest(coarse(pair, options), b, SAME_ROTATION_RAD, SAME_POSITION_RATIO, TO_MEASURE);
@@ -176,7 +182,7 @@ PairAlignment alignParts(const Part& a, const Part& b, const PairAlignmentOption
 std::optional<PairAlignment> confirmParts(const Part& a, const Part& b, const std::vector<PairCandidate>& known,
                                           const PairAlignmentOptions& options, base::JobControl& control)
 {
-  if (known.empty())
+  if (known.empty() || a.many.empty() || b.many.empty())
     return std::nullopt;
   std::vector<Candidate> candidates;
   for (const PairCandidate& candidate : known)

@@ -143,7 +143,7 @@ double coarseOverlap(const Part& a, const Part& b, const Eigen::Isometry3f& T_a_
             std::abs(a.model.normals[j].dot(q - a.model.points[j])) < reach_m &&
             a.model.normals[j].dot(T_a_b.linear() * b.model.normals[i]) > SAME_SIDE_COSINE;
   }
-  return static_cast<double>(same) / static_cast<double>(b.few.size());
+  return b.few.empty() ? 0 : static_cast<double>(same) / static_cast<double>(b.few.size());
 }
 
 PairQuality measurePair(const PartPair& pair, const Eigen::Isometry3f& T_a_b, bool many)
@@ -153,7 +153,8 @@ PairQuality measurePair(const PartPair& pair, const Eigen::Isometry3f& T_a_b, bo
   const Meeting b_on_a = meet(a, b, T_a_b, many, false, &colors);
   const Meeting a_on_b = meet(b, a, T_a_b.inverse(), many, true, &colors);
   PairQuality quality;
-  quality.overlap_ratio = std::max(b_on_a.same / b_on_a.total, a_on_b.same / a_on_b.total);
+  quality.overlap_ratio =
+      std::max(b_on_a.same / std::max(1.0, b_on_a.total), a_on_b.same / std::max(1.0, a_on_b.total));
   const double front = b_on_a.front + a_on_b.front, upheld = b_on_a.upheld + a_on_b.upheld;
   quality.fsv_ratio = front + upheld > 0 ? front / (front + upheld) : 0;
   const double same = b_on_a.same + a_on_b.same;

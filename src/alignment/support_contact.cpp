@@ -16,6 +16,8 @@ LowestPoint lowestPoint(const Part& part, const Eigen::Isometry3f& T_plane_part,
   const Eigen::Vector3f n = T_plane_part.linear().transpose() * plane.normal.cast<float>();
   const auto offset = static_cast<float>(plane.signedDistance_m(T_plane_part.translation().cast<double>()));
   std::vector<std::pair<float, int>> heights;
+  if (part.many.empty())
+    return {};
   heights.reserve(part.many.size());
   for (const int i : part.many)
     heights.emplace_back(n.dot(part.model.points[i]) + offset, i);

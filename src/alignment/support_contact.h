@@ -6,9 +6,10 @@ namespace object_modelling::alignment
 {
 struct LowestPoint
 {
-  Eigen::Vector3f point;  ///< in the frame of the part
-  float height_m = 0;     ///< above the plane; below it is only noise
+  Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< in the frame of the part
+  float height_m = 0;                               ///< above the plane; below it is only noise
 };
+/// At height 0 if the part has no points.
 LowestPoint lowestPoint(const Part& part, const Eigen::Isometry3f& T_plane_part, const geometry::Plane& plane);
 
 /// How far (m) the lowest points of either part are off the other's support plane, the larger of both; 0 without

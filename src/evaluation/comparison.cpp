@@ -36,6 +36,8 @@ base::Status unitsStatus(double model_m, double reference_m, double max_ratio)
 DistanceStatistics statisticsOf(const std::vector<double>& distances_m)
 {
   DistanceStatistics statistics;
+  if (distances_m.empty())
+    return statistics;
   const auto count = static_cast<double>(distances_m.size());
   double squares = 0, variance = 0, outliers = 0;
   for (const double distance_m : distances_m)

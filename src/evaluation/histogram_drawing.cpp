@@ -38,6 +38,8 @@ cv::Mat drawHistogram(const Histogram& histogram, const DistanceStatistics& stat
     total += static_cast<double>(count);
     highest = std::max(highest, static_cast<double>(count));
   }
+  total = std::max(total, 1.0);  // without distances the bars have no height
+  highest = std::max(highest, 1.0);
   const int plot_width_px = WIDTH_PX - LEFT_PX - RIGHT_PX, plot_height_px = HEIGHT_PX - TOP_PX - BOTTOM_PX;
   const int floor_px = HEIGHT_PX - BOTTOM_PX;
   const auto bins = static_cast<int>(histogram.counts.size());

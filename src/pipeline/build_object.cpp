@@ -186,9 +186,7 @@ base::Status Build::fuse()
 {
   if (placements_.size() > 1)  // one session has been refined already
   {
-    warnings_.push_back(
-        refineJointly({ views_.meanColorOffset_px(), views_.lights, printHolds(store_, idsOf(placements_)) },
-                      &views_.keyframes, control_));
+    warnings_.push_back(refineJointly({ idsOf(placements_), views_.lights }, &views_.keyframes, control_));
     timer_.finish("joint refinement");
   }
   fusion::CloudFusionOptions options = options_.fusion;

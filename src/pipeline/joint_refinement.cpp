@@ -1,8 +1,10 @@
 #include "joint_refinement.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
 
-#include "object_modelling/alignment/alignment_record.h"
 #include "object_modelling/refinement/multi_view_icp.h"
 
 namespace object_modelling::pipeline
@@ -10,36 +12,43 @@ namespace object_modelling::pipeline
 namespace
 {
 constexpr double AFTER_ALIGNMENT_M = 0.003;  // how far the surfaces of aligned sessions are off, at most
-constexpr double MIN_COLOR_AGREEMENT = 0.5;  // correlation of colours; light moves with the object, print does not
+constexpr int MAX_PARTNERS = 3;              // of each keyframe: few unknowns need few of many pairs
 
 bool isIn(const std::vector<std::string>& session_ids, const std::string& id)
 {
   return std::find(session_ids.begin(), session_ids.end(), id) != session_ids.end();
 }
-}  // namespace
 
-bool printHolds(keyframes::SessionStore& store, const std::vector<std::string>& session_ids)
+/// Sessions that stayed where alignment placed them; empty if none did.
+std::string leftOutText(const JointRefinement& joint, const std::vector<rgbd::Keyframe>& keyframes,
+                        const std::vector<int>& left_out_ids)
 {
-  std::vector<std::string> held;
-  for (const keyframes::AlignmentRecord& record : store.alignments())
+  std::vector<std::string> left_out;
+  for (std::size_t k = 0; k < keyframes.size(); ++k)
   {
-    if (!isIn(session_ids, record.session_a) || !isIn(session_ids, record.session_b))
-      continue;
-    try
-    {
-      const alignment::AlignmentEdge edge = alignment::edgeFrom(record);
-      if (!edge.accepted || edge.best()->quality.color_agreement < MIN_COLOR_AGREEMENT)
-        continue;
-    }
-    catch (const base::Error&)
-    {
-      continue;  // alignment says so when it meets it
-    }
-    held.push_back(record.session_a);
-    held.push_back(record.session_b);
+    const std::string& session_id = joint.session_ids.at(static_cast<std::size_t>(joint.sessions.at(k)));
+    if (std::find(left_out_ids.begin(), left_out_ids.end(), keyframes[k].id) != left_out_ids.end() &&
+        !isIn(left_out, session_id))
+      left_out.push_back(session_id);
   }
-  return std::all_of(session_ids.begin(), session_ids.end(), [&](const std::string& id) { return isIn(held, id); });
+  std::string names;
+  for (const std::string& id : left_out)
+    names += (names.empty() ? "'" : ", '") + id + "'";
+  return names.empty() ? names
+                       : "placed as aligned, not refined together with the others, whose keyframes have no surface in "
+                         "common with theirs: " +
+                             names;
 }
+
+std::string unconvergedText(const refinement::MultiViewIcpResult& refined)
+{
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << "the sessions' places against each other are not settled: after "
+       << refined.iterations << " iterations they still moved by " << 1e3 * refined.last_step_m << " mm and "
+       << refined.last_step_rad * 180 / M_PI << " deg, and are left where they fitted best";
+  return text.str();
+}
+}  // namespace
 
 std::string refineJointly(const JointRefinement& joint, std::vector<rgbd::Keyframe>* keyframes,
                           base::JobControl& control)
@@ -47,15 +56,17 @@ std::string refineJointly(const JointRefinement& joint, std::vector<rgbd::Keyfra
   refinement::MultiViewIcpOptions options;
   options.object_only = true;
   options.start_error_m = AFTER_ALIGNMENT_M;
-  options.color_offset_px = joint.color_offset_px;
-  options.color_weight = joint.print_holds ? options.color_weight : 0;
+  options.color_weight = 0;
+  options.max_partners = MAX_PARTNERS;
   options.bodies = joint.sessions;
   const refinement::MultiViewIcpResult refined = refinement::refineByMultiViewIcp(*keyframes, options, control);
   if (!refined.status.ok())
     return "sessions are placed as aligned, not refined together: " + refined.status.message;
   for (std::size_t i = 0; i < keyframes->size(); ++i)
     (*keyframes)[i].T_session_camera = refined.T_session_camera[i];
-  return {};
+  const std::string left_out = leftOutText(joint, *keyframes, refined.left_out);
+  const std::string left = refined.converged ? "" : unconvergedText(refined);
+  return left_out + (left_out.empty() || left.empty() ? "" : "; ") + left;
 }
 
 }  // namespace object_modelling::pipeline

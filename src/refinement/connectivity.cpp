@@ -4,11 +4,11 @@
 
 namespace object_modelling::refinement
 {
-std::vector<int> largestComponent(const Eigen::MatrixXi& shared, int min_shared)
+std::vector<std::vector<int>> components(const Eigen::MatrixXi& shared, int min_shared)
 {
   const int count = static_cast<int>(shared.rows());
   std::vector<bool> visited(count, false);
-  std::vector<int> largest;
+  std::vector<std::vector<int>> found;
   for (int seed = 0; seed < count; ++seed)
   {
     if (visited[seed])
@@ -25,10 +25,18 @@ std::vector<int> largestComponent(const Eigen::MatrixXi& shared, int min_shared)
         component.push_back(other);
       }
     }
+    std::sort(component.begin(), component.end());
+    found.push_back(std::move(component));
+  }
+  return found;
+}
+
+std::vector<int> largestComponent(const Eigen::MatrixXi& shared, int min_shared)
+{
+  std::vector<int> largest;
+  for (std::vector<int>& component : components(shared, min_shared))
     if (component.size() > largest.size())
       largest = std::move(component);
-  }
-  std::sort(largest.begin(), largest.end());
   return largest;
 }
 

@@ -35,6 +35,8 @@ std::vector<IcpStage> stagesOf(const MultiViewIcpOptions& options)
     stages.push_back(stage);
   }
   stages.push_back({ 0, std::cos(options.max_normal_angle_rad), 0, 1 });
+  for (IcpStage& stage : stages)
+    stage.rims = options.bodies.empty();
   return stages;
 }
 
@@ -48,45 +50,53 @@ double displacement_m(const geometry::Vector6d& motion, const Eigen::Isometry3d&
 class Solver
 {
 public:
-  Solver(const std::vector<int>& bodies, IcpProblem* problem, IcpOutcome* outcome)
-      : bodies_(bodies), problem_(*problem), outcome_(*outcome)
+  /// `few_bodies`: so few that it is quick to tell what holds them from noise.
+  Solver(const std::vector<int>& bodies, bool few_bodies, IcpProblem* problem, IcpOutcome* outcome)
+      : bodies_(bodies), few_bodies_(few_bodies), problem_(*problem), outcome_(*outcome)
   {
   }
 
-  /// One step that lowers the cost; gives the largest displacement, 0 if there is none.
-  double step()
+  /// One step that lowers the cost, 0 if there is none.
+  IcpStep step()
   {
     const std::vector<PairEquations> equations = problem_.equations(outcome_.T_session_camera);
+    std::vector<geometry::Matrix6d> noise;
+    if (few_bodies_)
+      noise = problem_.noise(outcome_.T_session_camera);
     double cost = 0;
     for (const PairEquations& pair : equations)
       cost += pair.cost;
     for (int trial = 0; trial < MAX_TRIALS; ++trial)
     {
-      const auto motions = solveMotions(equations, outcome_.members, bodies_, damping_);
+      const auto motions = noise.empty() ? solveMotions(equations, outcome_.members, bodies_, damping_)
+                                         : solveResisted(equations, noise, outcome_.members, bodies_, damping_);
       if (motions)
       {
         std::vector<Eigen::Isometry3d> moved = outcome_.T_session_camera;
-        double largest_m = 0;
-        for (std::size_t i = 1; i < outcome_.members.size(); ++i)
+        IcpStep largest;
+        for (const int k : outcome_.members)
         {
-          const int k = outcome_.members[i];
-          largest_m = std::max(largest_m, displacement_m((*motions)[k], moved[k]));
+          if (bodies_[k] == bodies_[outcome_.members.front()])
+            continue;  // stays to the bit
+          largest.moved_m = std::max(largest.moved_m, displacement_m((*motions)[k], moved[k]));
+          largest.turned_rad = std::max(largest.turned_rad, (*motions)[k].tail<3>().norm());
           moved[k] = geometry::normalised(geometry::isometryFromVector((*motions)[k]) * moved[k]);
         }
         if (problem_.cost(moved) <= cost)
         {
           outcome_.T_session_camera = std::move(moved);
           damping_ = std::max(1e-6, damping_ / 5);
-          return largest_m;
+          return largest;
         }
       }
       damping_ = std::min(1e3, damping_ * 8);
     }
-    return 0;
+    return {};
   }
 
 private:
   const std::vector<int>& bodies_;
+  bool few_bodies_;
   IcpProblem& problem_;
   IcpOutcome& outcome_;
   double damping_ = 1e-4;
@@ -128,10 +138,11 @@ IcpOutcome runIcp(const std::vector<rgbd::Keyframe>& keyframes, const MultiViewI
   outcome.T_session_camera = start;
   const std::vector<int> bodies = bodiesOf(options, keyframes.size());
   outcome.members = connectedKeyframes(bodies, problem->edges());
-  if (outcome.members.size() < 2)
+  if (outcome.members.empty())
     return outcome;
   const std::vector<IcpStage> stages = stagesOf(options);
-  Solver solver(bodies, problem, &outcome);
+  Solver solver(bodies, !options.bodies.empty(), problem, &outcome);
+  IcpOutcome best;  // of the last gate, by error
   const auto refine = [&](const IcpStage& stage)
   {
     const std::size_t first = outcome.rmse_m.size();
@@ -142,15 +153,23 @@ IcpOutcome runIcp(const std::vector<rgbd::Keyframe>& keyframes, const MultiViewI
       if (outcome.rmse_m.size() >= static_cast<std::size_t>(options.max_iterations))
         break;
       problem->match(outcome.T_session_camera, stage);
-      const double step_m = solver.step();
+      outcome.last_step = solver.step();
+      const double step_m = outcome.last_step.moved_m;
       outcome.rmse_m.push_back(rmseOf(problem->errors(outcome.T_session_camera, outcome.T_session_camera)));
       outcome.converged = stage.gate_m == 0 && (step_m < CONVERGED_STEP_M || stable(outcome.rmse_m, first));
+      if (stage.gate_m == 0 && (best.rmse_m.empty() || outcome.rmse_m.back() < best.rmse_m.back()))
+        best = outcome;
       if (outcome.converged || step_m < STEP_OF_GATE * stage.gate_m)
         break;
     }
   };
   for (const IcpStage& stage : stages)
     refine(stage);
+  if (!options.bodies.empty() && !outcome.converged && !best.rmse_m.empty())
+  {
+    outcome.T_session_camera = best.T_session_camera;
+    outcome.last_step = best.last_step;
+  }
   for (;;)
   {
     problem->match(outcome.T_session_camera, stages.back());
@@ -163,7 +182,7 @@ IcpOutcome runIcp(const std::vector<rgbd::Keyframe>& keyframes, const MultiViewI
       if (!std::binary_search(members.begin(), members.end(), k))
         outcome.T_session_camera[k] = start[k];
     outcome.members = members;
-    if (members.size() < 2)
+    if (members.empty())
       break;
     refine(stages.back());
   }

@@ -115,7 +115,7 @@ geometry::Matrix6d icpNoise(const IcpView& a, const IcpMatches& matches, const E
   forSurface(matches, T_a_b,
              [&](const Eigen::Vector3d& q, const Eigen::Vector3d& n, double residual, const SurfaceMatch& match)
              {
-               const double slope = match.sigma_m * a.focal_px() / (NORMAL_NOISE_PX * q.z());
+               const double slope = match.noise_m * a.focal_px() / (NORMAL_NOISE_PX * q.z());
                const double weight =
                    robustWeight(residual, loss.width_sigmas) * slope * slope / (match.sigma_m * match.sigma_m);
                const Eigen::Vector3d tangent = n.unitOrthogonal();

@@ -45,22 +45,28 @@ std::vector<IcpEdge> overlapGraph(const std::vector<rgbd::Keyframe>& keyframes, 
               overlap(a, b) = predictedOverlap(keyframes[a], keyframes[b], prediction);
       },
       options.threads);
+  return edgesBetweenPartners(overlap, options.min_overlap_ratio, options.max_partners);
+}
+
+std::vector<IcpEdge> edgesBetweenPartners(const Eigen::MatrixXd& ratio, double min_ratio, int max_partners)
+{
   // What one sees of the other's surface, both ways: a near view is a part of a far one.
-  const auto shared = [&](int a, int b) { return std::min(overlap(a, b), overlap(b, a)); };
+  const auto shared = [&](int a, int b) { return std::min(ratio(a, b), ratio(b, a)); };
+  const int count = static_cast<int>(ratio.rows());
   std::map<std::pair<int, int>, double> edges;
   for (int a = 0; a < count; ++a)
   {
     std::vector<int> partners;
     for (int b = 0; b < count; ++b)
-      if (bodies[a] != bodies[b] && shared(a, b) >= options.min_overlap_ratio)
+      if (a != b && shared(a, b) >= min_ratio)
         partners.push_back(b);
     std::stable_sort(partners.begin(), partners.end(), [&](int x, int y) { return shared(a, x) > shared(a, y); });
-    for (const int b : spread(partners, options.max_partners))
+    for (const int b : spread(partners, max_partners))
       edges[std::minmax(a, b)] = shared(a, b);
   }
   std::vector<IcpEdge> graph;
-  for (const auto& [pair, ratio] : edges)
-    graph.push_back({ pair.first, pair.second, ratio });
+  for (const auto& [pair, shared_ratio] : edges)
+    graph.push_back({ pair.first, pair.second, shared_ratio });
   return graph;
 }
 
@@ -73,7 +79,7 @@ std::vector<int> bodiesOf(const MultiViewIcpOptions& options, std::size_t keyfra
   return bodies;
 }
 
-std::vector<int> connectedKeyframes(const std::vector<int>& bodies, const std::vector<IcpEdge>& edges)
+std::vector<std::vector<int>> connectedSets(const std::vector<int>& bodies, const std::vector<IcpEdge>& edges)
 {
   const auto count = static_cast<Eigen::Index>(bodies.size());
   Eigen::MatrixXi linked = Eigen::MatrixXi::Zero(count, count);
@@ -83,7 +89,17 @@ std::vector<int> connectedKeyframes(const std::vector<int>& bodies, const std::v
     for (Eigen::Index b = 0; b < count; ++b)
       if (a != b && bodies[a] == bodies[b])
         linked(a, b) = 1;
-  return largestComponent(linked, 1);
+  return components(linked, 1);
+}
+
+std::vector<int> connectedKeyframes(const std::vector<int>& bodies, const std::vector<IcpEdge>& edges)
+{
+  std::vector<int> largest;
+  for (std::vector<int>& set : connectedSets(bodies, edges))
+    if (set.size() > largest.size() &&
+        std::any_of(set.begin(), set.end(), [&](int k) { return bodies[k] != bodies[set.front()]; }))
+      largest = std::move(set);
+  return largest;
 }
 
 }  // namespace object_modelling::refinement

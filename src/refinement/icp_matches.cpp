@@ -129,6 +129,7 @@ void matchRims(const IcpView& a, const IcpView& b, const Eigen::Isometry3f& T_a_
     match.p_b = p_b;
     match.n_a = sideways / distance_m;
     match.p_a += RIM_PX * pixel_m * match.n_a;
+    match.noise_m = pixel_m;
     match.sigma_m = std::hypot(pixel_m, 0.3F * gate_m);
     matches->surface.push_back(match);
   }
@@ -210,8 +211,8 @@ bool sampleGray(const cv::Mat& gray, float u, float v, float* value, Eigen::Vect
   return true;
 }
 
-IcpMatches matchViews(const IcpView& a, const IcpView& b, const Eigen::Isometry3d& T_a_b, const IcpStage& stage,
-                      const NearestPoints* nearest)
+IcpMatches matchSurface(const IcpView& a, const IcpView& b, const Eigen::Isometry3d& T_a_b, const IcpStage& stage,
+                        const NearestPoints* nearest)
 {
   IcpMatches matches;
   const Eigen::Isometry3f T = T_a_b.cast<float>();
@@ -246,12 +247,21 @@ IcpMatches matchViews(const IcpView& a, const IcpView& b, const Eigen::Isometry3
     const float distance_m = std::abs(match.n_a.dot(q - match.p_a));
     if (n.dot(match.n_a) < min_cosine || distance_m > gate_m + GATE_SIGMAS * noise_m)
       continue;
+    match.noise_m = noise_m;
     match.sigma_m = std::hypot(noise_m, 0.3F * gate_m);
     matches.surface.push_back(match);
     matches.fitting += in_view && !seenThrough(a, q, noise_m) && distance_m < FIT_SIGMAS * noise_m;
   }
-  matchRims(a, b, T, stage, &matches);
-  matchColors(a, b, T, stage, &matches);
+  return matches;
+}
+
+IcpMatches matchViews(const IcpView& a, const IcpView& b, const Eigen::Isometry3d& T_a_b, const IcpStage& stage,
+                      const NearestPoints* nearest)
+{
+  IcpMatches matches = matchSurface(a, b, T_a_b, stage, nearest);
+  if (stage.rims)
+    matchRims(a, b, T_a_b.cast<float>(), stage, &matches);
+  matchColors(a, b, T_a_b.cast<float>(), stage, &matches);
   return matches;
 }
 

@@ -16,13 +16,17 @@ struct IcpStage
   double min_normal_cosine = 0;
   int color_level = 0;
   int point_step = 1;  ///< every so many of a keyframe's points
+  /// Depth ends a little within the rim of an object. Of views from all sides these errors cancel; of an object that
+  /// was turned over each session sees a rim from its own side, and is pulled one way.
+  bool rims = true;
 };
 
 /// A point of keyframe b and the plane of keyframe a that it belongs to, each in its camera's frame.
 struct SurfaceMatch
 {
   Eigen::Vector3f p_b, p_a, n_a;
-  float sigma_m = 1;  ///< of the distance, with what the poses may be off
+  float noise_m = 1;  ///< sigma of the distance
+  float sigma_m = 1;  ///< the same with what the poses may be off
 };
 
 /// A point of keyframe b, and its grey level as a's exposure shows it.
@@ -42,7 +46,11 @@ struct IcpMatches
   int fitting = 0;        ///< those of them whose partner lies within noise
 };
 
-/// `nearest`: of a, for IcpAssociation::NEAREST; else null.
+/// Of the surfaces alone, without rims and colours. `nearest`: of a, for IcpAssociation::NEAREST; else null.
+IcpMatches matchSurface(const IcpView& a, const IcpView& b, const Eigen::Isometry3d& T_a_b, const IcpStage& stage,
+                        const NearestPoints* nearest);
+
+/// Of all that ties b to a.
 IcpMatches matchViews(const IcpView& a, const IcpView& b, const Eigen::Isometry3d& T_a_b, const IcpStage& stage,
                       const NearestPoints* nearest);
 

@@ -70,6 +70,12 @@ void IcpProblem::forDirectedPairs(Visit visit) const
              });
 }
 
+void IcpProblem::add(const std::vector<IcpEdge>& edges)
+{
+  edges_.insert(edges_.end(), edges.begin(), edges.end());
+  matches_.clear();
+}
+
 void IcpProblem::leaveOut(int keyframe)
 {
   edges_.erase(std::remove_if(edges_.begin(), edges_.end(),

@@ -16,7 +16,9 @@ public:
   IcpProblem(const std::vector<rgbd::Keyframe>& keyframes, const MultiViewIcpOptions& options,
              std::vector<IcpEdge> edges, base::JobControl* control);
 
+  const std::vector<IcpView>& views() const { return views_; }
   const std::vector<IcpEdge>& edges() const { return edges_; }
+  void add(const std::vector<IcpEdge>& edges);
   /// Forgets the edges of a keyframe.
   void leaveOut(int keyframe);
 

@@ -13,7 +13,6 @@ namespace
 constexpr double CORRELATED_POINTS = 30;
 constexpr double UNKNOWN_M = 1, UNKNOWN_RAD = 1;  // sigma of what the pairs say nothing of
 constexpr double FREE_M = 0.02;                   // of points on the surface: a larger sigma is no knowledge
-constexpr double NOISE_FACTOR = 2;                // information beyond that many times the noise's counts
 constexpr double LEVER_M = 0.1;                   // size of an object, by which angles compare with lengths
 constexpr double AXIS_DISTANCE_M = 1;             // a rotation about an axis farther away counts as a translation
 constexpr int DEPTH_STEP_PX = 16;
@@ -182,21 +181,25 @@ MultiViewIcpResult reportOf(const std::vector<rgbd::Keyframe>& keyframes, const 
   result.rmse_m = outcome.rmse_m;
   result.iterations = static_cast<int>(outcome.rmse_m.size());
   result.converged = outcome.converged;
-  const bool possible = outcome.members.size() >= 2;
+  const bool possible = !outcome.members.empty();
   for (std::size_t k = 0; k < keyframes.size(); ++k)
     if (!possible || !std::binary_search(outcome.members.begin(), outcome.members.end(), static_cast<int>(k)))
       result.left_out.push_back(keyframes[k].id);
   if (!possible)
   {
     result.status = { base::StatusCode::NO_RESULT,
-                      "nothing to align: no two of " + std::to_string(keyframes.size()) +
-                          " keyframes see the same surface" + (options.object_only ? " of the object" : "") +
-                          " and fit; record more slowly, from closer by, or segment the object first" };
+                      options.bodies.empty()
+                          ? "nothing to align: no two of " + std::to_string(keyframes.size()) +
+                                " keyframes see the same surface" + (options.object_only ? " of the object" : "") +
+                                " and fit; record more slowly, from closer by, or segment the object first"
+                          : "nothing to align: keyframes of different bodies have too little surface in common" };
     if (keyframes.size() == 1)
       result.left_out.clear();
     return result;
   }
-  if (!outcome.converged)
+  result.last_step_m = outcome.last_step.moved_m;
+  result.last_step_rad = outcome.last_step.turned_rad;
+  if (!outcome.converged && options.bodies.empty())
   {
     result.status = { base::StatusCode::NO_RESULT, "multi-view icp did not converge within " +
                                                        std::to_string(result.iterations) +

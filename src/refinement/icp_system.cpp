@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 
 namespace object_modelling::refinement
@@ -62,15 +63,10 @@ SparseMatrix matrixOf(const std::vector<PairEquations>& pairs, const std::vector
 }
 }  // namespace
 
-std::optional<std::vector<geometry::Vector6d>> solveMotions(const std::vector<PairEquations>& pairs,
-                                                            const std::vector<int>& members,
-                                                            const std::vector<int>& bodies, double damping)
+namespace
 {
-  const auto [rows, unknowns] = Rows(members, bodies);
-  SparseMatrix matrix = matrixOf(pairs, rows, unknowns, geometry::Matrix6d::Zero());
-  const double least = 1e-9 * (1 + Eigen::VectorXd(matrix.diagonal()).maxCoeff());
-  for (int i = 0; i < unknowns; ++i)
-    matrix.coeffRef(i, i) += damping * matrix.coeff(i, i) + least;
+Eigen::VectorXd rightSideOf(const std::vector<PairEquations>& pairs, const std::vector<int>& rows, int unknowns)
+{
   Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
   for (const PairEquations& pair : pairs)
   {
@@ -79,17 +75,63 @@ std::optional<std::vector<geometry::Vector6d>> solveMotions(const std::vector<Pa
     if (rows[pair.b] >= 0)
       right.segment<6>(rows[pair.b]) += pair.g;
   }
-  const Eigen::SimplicialLDLT<SparseMatrix> factors(matrix);
-  if (factors.info() != Eigen::Success)
-    return std::nullopt;
-  const Eigen::VectorXd solution = factors.solve(right);
+  return right;
+}
+
+std::optional<std::vector<geometry::Vector6d>> motionsOf(const Eigen::VectorXd& solution, const std::vector<int>& rows)
+{
   if (!solution.allFinite())
     return std::nullopt;
-  std::vector<geometry::Vector6d> motions(bodies.size(), geometry::Vector6d::Zero());
-  for (std::size_t k = 0; k < bodies.size(); ++k)
+  std::vector<geometry::Vector6d> motions(rows.size(), geometry::Vector6d::Zero());
+  for (std::size_t k = 0; k < rows.size(); ++k)
     if (rows[k] >= 0)
       motions[k] = solution.segment<6>(rows[k]);
   return motions;
+}
+}  // namespace
+
+std::optional<std::vector<geometry::Vector6d>> solveMotions(const std::vector<PairEquations>& pairs,
+                                                            const std::vector<int>& members,
+                                                            const std::vector<int>& bodies, double damping)
+{
+  const auto [rows, unknowns] = Rows(members, bodies);
+  if (unknowns == 0)
+    return std::nullopt;
+  SparseMatrix matrix = matrixOf(pairs, rows, unknowns, geometry::Matrix6d::Zero());
+  const double least = 1e-9 * (1 + Eigen::VectorXd(matrix.diagonal()).maxCoeff());
+  for (int i = 0; i < unknowns; ++i)
+    matrix.coeffRef(i, i) += damping * matrix.coeff(i, i) + least;
+  const Eigen::SimplicialLDLT<SparseMatrix> factors(matrix);
+  if (factors.info() != Eigen::Success)
+    return std::nullopt;
+  return motionsOf(factors.solve(rightSideOf(pairs, rows, unknowns)), rows);
+}
+
+std::optional<std::vector<geometry::Vector6d>> solveResisted(const std::vector<PairEquations>& pairs,
+                                                             const std::vector<geometry::Matrix6d>& noise,
+                                                             const std::vector<int>& members,
+                                                             const std::vector<int>& bodies, double damping)
+{
+  const auto [rows, unknowns] = Rows(members, bodies);
+  if (unknowns == 0)
+    return std::nullopt;
+  std::vector<PairEquations> of_noise = pairs;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    of_noise[i].A = noise[i];
+  const auto dense = [&, &rows = rows, unknowns = unknowns](const std::vector<PairEquations>& equations)
+  {
+    const Eigen::MatrixXd lower(matrixOf(equations, rows, unknowns, geometry::Matrix6d::Zero()));
+    return Eigen::MatrixXd(lower.selfadjointView<Eigen::Lower>());
+  };
+  Eigen::MatrixXd N = dense(of_noise);
+  N.diagonal().array() += 1e-9 * N.diagonal().maxCoeff() + 1e-12;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(dense(pairs), N);
+  if (solver.info() != Eigen::Success)
+    return std::nullopt;
+  Eigen::VectorXd along = solver.eigenvectors().transpose() * rightSideOf(pairs, rows, unknowns);
+  for (int i = 0; i < unknowns; ++i)
+    along[i] *= solver.eigenvalues()[i] > NOISE_FACTOR ? 1 / ((1 + damping) * solver.eigenvalues()[i]) : 0;
+  return motionsOf(solver.eigenvectors() * along, rows);
 }
 
 std::vector<geometry::Matrix6d> motionCovariances(const std::vector<PairEquations>& pairs,
@@ -98,8 +140,10 @@ std::vector<geometry::Matrix6d> motionCovariances(const std::vector<PairEquation
 {
   std::vector<geometry::Matrix6d> covariances(bodies.size(), geometry::Matrix6d::Zero());
   const auto [rows, unknowns] = Rows(members, bodies);
+  if (unknowns == 0)
+    return covariances;
   const Eigen::SimplicialLDLT<SparseMatrix> factors(matrixOf(pairs, rows, unknowns, prior));
-  if (unknowns == 0 || factors.info() != Eigen::Success)
+  if (factors.info() != Eigen::Success)
     return covariances;
   for (std::size_t k = 0; k < bodies.size(); ++k)
   {

@@ -1,5 +1,6 @@
 #include "object_modelling/refinement/multi_view_icp.h"
 
+#include "body_links.h"
 #include "icp_report.h"
 #include "object_modelling/base/options.h"
 
@@ -32,7 +33,11 @@ MultiViewIcpResult refineByMultiViewIcp(const std::vector<rgbd::Keyframe>& keyfr
                                                               " bodies of " + std::to_string(keyframes.size()) +
                                                               " keyframes; give one for each, or none");
   control.report("overlap", 0, keyframes.size());
-  IcpProblem problem(keyframes, options, overlapGraph(keyframes, options), &control);
+  const bool by_keyframe = options.bodies.empty();
+  IcpProblem problem(keyframes, options, by_keyframe ? overlapGraph(keyframes, options) : std::vector<IcpEdge>(),
+                     &control);
+  if (!by_keyframe)
+    problem.add(linksBetweenBodies(keyframes, problem.views(), options));
   const IcpOutcome outcome = runIcp(keyframes, options, &problem, &control);
   return reportOf(keyframes, options, problem, outcome);
 }

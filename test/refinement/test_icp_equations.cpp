@@ -173,4 +173,17 @@ TEST(IcpView, PointsAreSpreadOverTheNormals)
   EXPECT_LT(upright, 700);
 }
 
+TEST(IcpSystem, NothingToMoveIsNoMotion)
+{
+  PairEquations pair{ 0, 1, 1.0 };
+  pair.A = geometry::Matrix6d::Identity();
+  EXPECT_TRUE(solveMotions({ pair }, { 0, 1 }, { 0, 1 }, 1e-4));
+  EXPECT_FALSE(solveMotions({}, { 0, 1 }, { 7, 7 }, 1e-4));
+  EXPECT_FALSE(solveMotions({}, {}, {}, 1e-4));
+  const std::vector<geometry::Matrix6d> covariances =
+      motionCovariances({}, { 0, 1 }, { 7, 7 }, geometry::Matrix6d::Identity());
+  ASSERT_EQ(covariances.size(), 2U);
+  EXPECT_TRUE(covariances[1].isZero());
+}
+
 }  // namespace object_modelling::refinement

@@ -17,7 +17,7 @@ struct DistanceStatistics
   double outlier_ratio = 0;  ///< share beyond OUTLIER_DISTANCE_M
 };
 
-/// Of at least one distance.
+/// All 0 without distances.
 DistanceStatistics statisticsOf(const std::vector<double>& distances_m);
 
 struct ComparisonOptions

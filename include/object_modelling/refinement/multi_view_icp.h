@@ -35,7 +35,9 @@ struct MultiViewIcpOptions
   /// Pixel of a point in the colour image minus its pixel in the depth image (see BundleAdjustmentResult).
   Eigen::Vector2d color_offset_px = Eigen::Vector2d::Zero();
   /// Per keyframe: those of one number keep their poses relative to each other and move as one (sessions that were
-  /// refined by themselves, on more than the object); partners are sought in other bodies alone. Empty: each by itself.
+  /// refined by themselves, on more than the object). Partners are keyframes of other bodies that have surface in
+  /// common as they come in, however different the directions from which they see it; a body moves along those motions
+  /// alone that more than noise resists. Empty: each by itself.
   std::vector<int> bodies;
   int max_iterations = 60;  ///< associations, over all gates
   int threads = 2;          ///< any number gives the same bits
@@ -72,7 +74,9 @@ struct FreeDirection
 
 struct MultiViewIcpResult
 {
-  base::Status status;  ///< NO_RESULT: nothing overlaps, or not converged; poses are then those that came in
+  /// NO_RESULT: nothing overlaps, or not converged; poses are then those that came in. Bodies that have not converged
+  /// are OK: they are where the error was least, and last_step_m and last_step_rad say what is left.
+  base::Status status;
   /// Per keyframe, in the order given. The session frame may be any frame common to all keyframes, those of several
   /// aligned sessions among them.
   std::vector<Eigen::Isometry3d> T_session_camera;
@@ -83,6 +87,8 @@ struct MultiViewIcpResult
   std::vector<FreeDirection> free_directions;
   std::vector<double> rmse_m;  ///< point to plane, of each iteration: the gate narrows on the way
   int iterations = 0;
+  /// What the last iteration still did: how far it moved what a keyframe sees, and turned a keyframe, at most.
+  double last_step_m = 0, last_step_rad = 0;
   bool converged = false;
 };
 
