@@ -20,6 +20,8 @@ constexpr double MAX_UNKNOWN_RATIO = 0.15;   // of those that may be beside it w
 constexpr double SAME_COLOR = 0.1;           // rms difference of colours that are the same, with noise and light
 constexpr double HARDLY_AGAINST = -1;        // what a figure takes off the log odds, to be named as the reason
 constexpr double MAX_LOG_ODDS = 500;         // exponents beyond overflow
+constexpr float OTHER_COLOR = 0.35F;         // difference of colours that are not the same
+constexpr double MAX_PRINT_RATIO = 0.03;     // of the points that may have such
 constexpr double ASKED_PROBABILITY = 0.1;    // of the same pose: below it no such pose is taken unasked
 
 const std::string REMEDY =
@@ -29,7 +31,8 @@ const std::string REMEDY =
 const std::string NOT_TURNED =
     "the two fit best as if the object had not been turned over in between: turn it over and record again, or, if it "
     "lay "
-    "as before, accept that pose or say that such sessions exist (same_pose_probability 0.5)";
+    "as before, accept that pose or allow for it (same_pose_probability of the session_aligner, or "
+    "--same-pose-probability, 0.5)";
 
 std::string percent(double ratio)
 {
@@ -81,16 +84,17 @@ struct Difference
   double stray_ratio = 0;    ///< of the points of one, where views look through that would not if the other were right
   double unknown_ratio = 0;  ///< of those that are off the other where nobody looked
   double color_rms = 0;
+  double print_ratio = 0;  ///< of those found whose colours are clearly others: a label is few of the points
 
   bool sameShape() const { return stray_ratio <= MAX_STRAY_RATIO && unknown_ratio <= MAX_UNKNOWN_RATIO; }
-  bool sameObject() const { return sameShape() && color_rms <= SAME_COLOR; }
+  bool sameObject() const { return sameShape() && color_rms <= SAME_COLOR && print_ratio <= MAX_PRINT_RATIO; }
 };
 
 /// One way: b placed by `rival` against a with b placed by `best`.
 Difference strayOf(const Part& a, const Part& b, const Eigen::Isometry3f& best, const Eigen::Isometry3f& rival)
 {
   const auto reach_m = static_cast<float>(SAME_SHAPE_SPACINGS * std::max(a.model.spacing_m, b.model.spacing_m));
-  double stray = 0, unknown = 0, squares = 0, count = 0;
+  double stray = 0, unknown = 0, squares = 0, print = 0, count = 0;
   const Eigen::Isometry3f T_b_rival = best.inverse() * rival;
   const auto look_up =
       [&](const Part& part, const Eigen::Vector3f& p, const Eigen::Vector3f& n, const Eigen::Vector3f& color)
@@ -102,7 +106,9 @@ Difference strayOf(const Part& a, const Part& b, const Eigen::Isometry3f& best, 
     const bool beside = std::abs(part.model.normals[j].dot(off)) <= reach_m && part.model.normals[j].dot(n) > 0.5F;
     if (!beside && off.norm() > reach_m)
       return false;
-    squares += (part.blurred_colors[j] - color).squaredNorm();
+    const float squared = (part.blurred_colors[j] - color).squaredNorm();
+    squares += squared;
+    print += squared > OTHER_COLOR * OTHER_COLOR;
     count += 1;
     return true;
   };
@@ -119,7 +125,8 @@ Difference strayOf(const Part& a, const Part& b, const Eigen::Isometry3f& best, 
     (through ? stray : unknown) += 1;
   }
   const auto all = static_cast<double>(std::max<std::size_t>(1, b.many.size()));
-  return { stray / all, unknown / all, count > 0 ? std::sqrt(squares / count) : 0 };
+  const double found = std::max(1.0, count);
+  return { stray / all, unknown / all, std::sqrt(squares / found), print / found };
 }
 
 /// Where the object is symmetric, the one that shows more of it has all that the other shows.
@@ -127,7 +134,7 @@ Difference differenceOf(const Part& a, const Part& b, const Eigen::Isometry3f& b
 {
   const Difference one = strayOf(a, b, best, rival), other = strayOf(a, b, rival, best);
   return { std::min(one.stray_ratio, other.stray_ratio), std::min(one.unknown_ratio, other.unknown_ratio),
-           std::max(one.color_rms, other.color_rms) };
+           std::max(one.color_rms, other.color_rms), std::max(one.print_ratio, other.print_ratio) };
 }
 
 /// Sets the probability of each candidate against all the others and none being right; returns that of any of them.

@@ -31,6 +31,7 @@ struct Arguments
   std::size_t max_triangles = 0;
   bool replace = false;
   bool require_all = false;
+  double same_pose_probability = alignment::PairAlignmentOptions().same_pose_probability;
   RecordArguments record;
 };
 
@@ -116,6 +117,7 @@ alignment::AlignmentResult align(const Arguments& arguments, const std::vector<s
                                  keyframes::SessionStore& store, base::JobControl& control, CommandOutput* output)
 {
   pipeline::AlignOptions options;
+  options.pair.same_pose_probability = arguments.same_pose_probability;
   options.required = arguments.require_all ? pipeline::Required::ALL : pipeline::Required::ONE;
   alignment::AlignmentResult aligned = pipeline::alignSessions(store, session_ids, options, control);
   if (aligned.left_out.empty())
@@ -219,6 +221,11 @@ void addModelCommand(CLI::App& app, Command* chosen)
   command->add_flag("--replace", arguments->replace,
                     "Replace an object of this name that was built from other sessions; its frame changes");
   addRecordOptions(*command, &arguments->record);
+  command
+      ->add_option("--same-pose-probability", arguments->same_pose_probability,
+                   "How often the object is recorded again without having been turned over; 0.5: as often as not")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   command->add_flag(
       "--require-all", arguments->require_all,
       "Fail where not all sessions fit each other, instead of building a partial object from those that do");

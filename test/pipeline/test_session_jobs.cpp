@@ -165,13 +165,21 @@ TEST_F(SessionJobs, AlignPlacesOneWithoutLookingAtIt)
   EXPECT_EQ(alignSessions(*store_, {}, {}, control_).status.code, StatusCode::INVALID_ARGUMENT);
 }
 
+/// The rendered sessions differ in their walks alone.
+AlignOptions samePose()
+{
+  AlignOptions options;
+  options.pair.same_pose_probability = 0.5;
+  return options;
+}
+
 TEST_F(SessionJobs, AlignPlacesSessionsOfTheSameObjectAndKeepsWhatItFound)
 {
   // Both stand in the same world, which is their session frame.
   storeRenderedSession(*store_, "one", 12);
   storeRenderedSession(*store_, "two", 9);
   const std::string before = fingerprint(*store_, "one") + fingerprint(*store_, "two");
-  const alignment::AlignmentResult two = alignSessions(*store_, { "one", "two" }, {}, control_);
+  const alignment::AlignmentResult two = alignSessions(*store_, { "one", "two" }, samePose(), control_);
   ASSERT_TRUE(two.status.ok()) << two.status.message;
   ASSERT_EQ(two.placements.size(), 2u);
   EXPECT_TRUE(two.placements[1].T_reference_session.isApprox(Eigen::Isometry3d::Identity(), 0.005))
@@ -184,7 +192,7 @@ TEST_F(SessionJobs, AlignPlacesSessionsOfTheSameObjectAndKeepsWhatItFound)
   EXPECT_TRUE(known.accepted);
   EXPECT_EQ(known.best()->T_a_b.matrix(), two.edges[0].best()->T_a_b.matrix());
   store_->updateAlignments({ { "one", "two", "no: yaml: [" } });
-  EXPECT_TRUE(alignSessions(*store_, { "one", "two" }, {}, control_).status.ok())
+  EXPECT_TRUE(alignSessions(*store_, { "one", "two" }, samePose(), control_).status.ok())
       << "what cannot be read is found anew";
 }
 
@@ -194,22 +202,22 @@ TEST_F(SessionJobs, APersonDecidesOnAlignments)
   storeRenderedSession(*store_, "two", 9);
   EXPECT_EQ(statusOf([&] { acceptAlignment(*store_, "one", "two", 0); }).code, StatusCode::FAILED_PRECONDITION);
   EXPECT_EQ(statusOf([&] { acceptAlignment(*store_, "one", "missing", 0); }).code, StatusCode::NOT_FOUND);
-  ASSERT_TRUE(alignSessions(*store_, { "one", "two" }, {}, control_).status.ok());
+  ASSERT_TRUE(alignSessions(*store_, { "one", "two" }, samePose(), control_).status.ok());
 
   refuseAlignment(*store_, "two", "one");
-  const alignment::AlignmentResult refused = alignSessions(*store_, { "one", "two" }, {}, control_);
+  const alignment::AlignmentResult refused = alignSessions(*store_, { "one", "two" }, samePose(), control_);
   EXPECT_EQ(refused.status.code, StatusCode::NO_RESULT);
   EXPECT_NE(refused.status.message.find("refused by a person"), std::string::npos) << refused.status.message;
-  AlignOptions anew;
+  AlignOptions anew = samePose();
   anew.use_known = false;
   EXPECT_EQ(alignSessions(*store_, { "one", "two" }, anew, control_).status.code, StatusCode::NO_RESULT);
 
   EXPECT_EQ(statusOf([&] { acceptAlignment(*store_, "one", "two", 90); }).code, StatusCode::INVALID_ARGUMENT);
   acceptAlignment(*store_, "one", "two", 0);
-  EXPECT_TRUE(alignSessions(*store_, { "one", "two" }, {}, control_).status.ok());
+  EXPECT_TRUE(alignSessions(*store_, { "one", "two" }, samePose(), control_).status.ok());
   forgetAlignment(*store_, "one", "two");
   EXPECT_TRUE(knownAlignment(*store_, "one", "two").candidates.empty());
-  EXPECT_TRUE(alignSessions(*store_, { "one", "two" }, {}, control_).status.ok());
+  EXPECT_TRUE(alignSessions(*store_, { "one", "two" }, samePose(), control_).status.ok());
   EXPECT_EQ(knownAlignment(*store_, "one", "two").decision, alignment::Decision::AUTOMATIC);
 }
 
