@@ -8,6 +8,8 @@ import unittest
 
 from command import HANDHELD, run, run_json
 
+SAME_POSE = ("--same-pose-probability", "0.5")  # the same recording twice: nobody turned the object over
+
 
 class SessionsTest(unittest.TestCase):
     @classmethod
@@ -18,7 +20,7 @@ class SessionsTest(unittest.TestCase):
         recordings = [os.path.join(cls.folder.name, name) for name in ("walk_1", "walk_2")]
         for recording in recordings:
             os.symlink(HANDHELD, recording)
-        arguments = ("--store", cls.store, "--database", cls.database)
+        arguments = ("--store", cls.store, "--database", cls.database, *SAME_POSE)
         cls.first = run_json("model", "bottle", recordings[0], *arguments)
         cls.frame = cls.model_from_session("walk_1")
         cls.second = run_json("model", "bottle", recordings[1], *arguments)
@@ -30,7 +32,7 @@ class SessionsTest(unittest.TestCase):
         return [float(number) for number in row[0].split()]
 
     def align(self, *arguments):
-        return run_json("align", "bottle", "--store", self.store, *arguments)
+        return run_json("align", "bottle", "--store", self.store, *SAME_POSE, *arguments)
 
     def test_one_more_session_joins_and_the_frame_stays(self):
         self.assertEqual(len(self.first["sessions"]), 1)
@@ -42,8 +44,15 @@ class SessionsTest(unittest.TestCase):
         for a, b in zip(self.model_from_session("walk_2"), self.frame):
             self.assertAlmostEqual(a, b, delta=0.003)
 
+    def test_what_was_not_turned_over_is_not_joined_unasked(self):
+        refused = run("align", "bottle", "--store", self.store, "--anew", "--quiet")
+        self.assertNotEqual(refused.returncode, 0)
+        self.assertIn("not been turned over", refused.stderr)
+        self.assertIn("--same-pose-probability", refused.stderr)
+        self.assertTrue(self.align("--anew")["edges"][0]["accepted"])
+
     def test_builds_from_the_store_alone(self):
-        again = run_json("model", "bottle", "--store", self.store, "--database", self.database)
+        again = run_json("model", "bottle", "--store", self.store, "--database", self.database, *SAME_POSE)
         self.assertEqual(again["sessions"], [])
         self.assertEqual(len(again["alignment"]["transforms"]), 1)
         refused = run("model", "mug", "--store", self.store, "--database", self.database)
