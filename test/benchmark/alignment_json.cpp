@@ -21,9 +21,8 @@ nlohmann::json toJson(const Eigen::Isometry3d& T)
   return rows;
 }
 
-nlohmann::json candidateJson(const PairRow& pair, std::size_t index)
+nlohmann::json candidateJson(const alignment::PairCandidate& candidate, const CandidateErrors* errors)
 {
-  const alignment::PairCandidate& candidate = pair.result.candidates[index];
   const alignment::PairQuality& quality = candidate.quality;
   nlohmann::json features;
   const alignment::FeatureVector values = alignment::featuresOf(quality);
@@ -32,17 +31,16 @@ nlohmann::json candidateJson(const PairRow& pair, std::size_t index)
   nlohmann::json json = { { "kind", alignment::nameOf(candidate.kind) },
                           { "a_from_b", toJson(candidate.T_a_b) },
                           { "features", features },
-                          { "right", static_cast<bool>(pair.right[index]) },
                           { "rotation_error_deg", nullptr },
                           { "translation_error_mm", nullptr },
                           { "mesh_distance_mm", nullptr } };
   for (const alignment::PairFigure& figure : alignment::pairFigures())
     json[figure.name] = quality.*figure.value;
-  if (pair.same_object)
+  if (errors)
   {
-    json["rotation_error_deg"] = pair.errors[index].rotation_deg;
-    json["translation_error_mm"] = pair.errors[index].translation_mm;
-    json["mesh_distance_mm"] = pair.errors[index].mesh_distance_mm;
+    json["rotation_error_deg"] = errors->rotation_deg;
+    json["translation_error_mm"] = errors->translation_mm;
+    json["mesh_distance_mm"] = errors->mesh_distance_mm;
   }
   return json;
 }
@@ -70,7 +68,13 @@ nlohmann::json toJson(const PairRow& pair)
   if (const std::optional<int> rank = pair.rankOfRight())
     json["rank_of_right"] = *rank;
   for (std::size_t i = 0; i < pair.result.candidates.size(); ++i)
-    json["candidates"].push_back(candidateJson(pair, i));
+  {
+    json["candidates"].push_back(
+        candidateJson(pair.result.candidates[i], pair.same_object ? &pair.errors[i] : nullptr));
+    json["candidates"].back()["right"] = static_cast<bool>(pair.right[i]);
+  }
+  if (pair.from_truth)
+    json["from_truth"] = candidateJson(*pair.from_truth, &pair.from_truth_errors);
   return json;
 }
 }  // namespace

@@ -34,7 +34,9 @@ struct PairRow
   double true_overlap = 0;
   double true_turn_rad = -1;  ///< by how much the object was turned over in between; negative: no support plane
   Eigen::Isometry3d T_a_b_true = Eigen::Isometry3d::Identity();
-  std::vector<CandidateErrors> errors;  ///< one per candidate
+  std::vector<CandidateErrors> errors;                 ///< one per candidate
+  std::optional<alignment::PairCandidate> from_truth;  ///< where the true pose ends, moved into place as they were
+  CandidateErrors from_truth_errors;
 
   std::vector<bool> right;  ///< one per candidate
   bool firstIsRight() const { return !right.empty() && right.front(); }

@@ -17,6 +17,7 @@
 #include "alignment_report.h"
 #include "alignment_sessions.h"
 #include "benchmark_program.h"
+#include "object_modelling/alignment/alignment_by_points.h"
 #include "object_modelling/base/atomic_file.h"
 #include "object_modelling/evaluation/comparison_files.h"
 #include "object_modelling/rgbd/noise_model_file.h"
@@ -135,6 +136,19 @@ SessionRow prepareSession(const std::string& folder, int arc, const Arguments& a
   return row;
 }
 
+/// Tells what the search missed from what the measure did not recognise.
+void refineTruth(const SessionRow& a, const SessionRow& b, const Arguments& arguments, Surfaces* surfaces, PairRow* row)
+{
+  const Eigen::Vector3d centre = b.part.centre().cast<double>();
+  std::vector<alignment::PointPair> same;
+  for (const Eigen::Vector3d& off :
+       { Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.1, 0, 0), Eigen::Vector3d(0, 0.1, 0) })
+    same.push_back({ row->T_a_b_true * (centre + off), centre + off });
+  base::JobControl control;
+  row->from_truth = alignment::alignByPoints(a.part, b.part, same, arguments.pair, control);
+  row->from_truth_errors = errorsOf(row->from_truth->T_a_b, b.part, a.truth, b.truth, surfaces->of(a.truth));
+}
+
 PairRow alignSessions(const SessionRow& a, const SessionRow& b, const Arguments& arguments, Surfaces* surfaces)
 {
   PairRow row;
@@ -156,6 +170,7 @@ PairRow alignSessions(const SessionRow& a, const SessionRow& b, const Arguments&
     row.errors.push_back(errorsOf(row.result.candidates[i].T_a_b, b.part, a.truth, b.truth, surfaces->of(a.truth)));
     row.right[i] = isRight(row.errors.back(), arguments.grey);
   }
+  refineTruth(a, b, arguments, surfaces, &row);
   return row;
 }
 

@@ -89,7 +89,7 @@ class Judge:
         """Sets `right`, `add_m`, `adds_m` of every candidate of pairs of one object; returns the report."""
         sessions = {s["id"]: s for s in report["sessions"] if not s["problem"]}
         for pair in report["pairs"]:
-            for candidate in pair["candidates"]:
+            for candidate in pair["candidates"] + [c for c in [pair.get("from_truth")] if c]:
                 if not pair["same_object"]:
                     candidate["right"] = False
                     continue
