@@ -9,6 +9,7 @@ ENOUGH_OVERLAP = 0.2  # less is too little to tell an alignment from another
 BINS = [0, 0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.95, 1.0001]
 FEW_PAIRS = 20  # in a bin: fewer say nothing of reliability
 NOT_TURNED_RAD = 0.17
+WELL_TRACKED_MM = 1.5  # rms of the refined camera about the truth: beyond it the part is bent by as much
 
 
 def same_pose(pair):
@@ -38,6 +39,11 @@ def group_of(pair, sessions, by):
     return str(metadata.get(by, "scanned"))
 
 
+def well_tracked(pair, sessions):
+    """Whether both recordings were tracked well enough for any pose of the pair to be right."""
+    return all(sessions[pair[k]]["camera_rmse_mm"] <= WELL_TRACKED_MM for k in "ab")
+
+
 def counts(pairs):
     result = {"pairs": len(pairs), "right": 0, "wrong": 0, "refused": 0}
     for pair in pairs:
@@ -60,6 +66,7 @@ def outcome_table(report):
     enough = [p for p in same if p["true_overlap_ratio"] >= ENOUGH_OVERLAP]
     lines = ["| pairs | number | right | | wrong | refused | right within 1.5 deg, 1.5 mm |", "|" + "---|" * 7,
              row("all with overlap >= 20 %", enough),
+             row(f"of them, both tracked within {WELL_TRACKED_MM} mm", [p for p in enough if well_tracked(p, sessions)]),
              row("less overlap", [p for p in same if p["true_overlap_ratio"] < ENOUGH_OVERLAP])]
     for by in ("sensor", "kind", "print"):
         groups = [group_of(p, sessions, by) for p in enough]
@@ -97,8 +104,9 @@ def reliability_table(report):
 
 def failures_table(report):
     """Every pair that is wrong or refused, with its first candidate and the first that is right."""
-    lines = ["| pair | outcome | overlap | turn | first: probability, deg, overlap, colour, gap mm, fsv | right one: rank, "
-             "probability, overlap, colour, gap mm, fsv | reason |", "|" + "---|" * 7]
+    sessions = {s["id"]: s for s in report["sessions"]}
+    lines = ["| pair | outcome | tracked to mm | overlap | turn | first: probability, deg, overlap, colour, gap mm, fsv | right one: rank, "
+             "probability, overlap, colour, gap mm, fsv | reason |", "|" + "---|" * 8]
 
     def figures(c):
         return (f"{c['probability']:.2f}, {c['rotation_error_deg']:.1f}, {c['overlap_ratio']:.2f}, "
@@ -110,6 +118,7 @@ def failures_table(report):
         rank = next((k for k, c in enumerate(pair["candidates"]) if c["right"]), None)
         first = figures(pair["candidates"][0]) if pair["candidates"] else "none"
         right = "none" if rank is None else f"{rank + 1}, " + figures(pair["candidates"][rank])
-        lines.append(f"| {pair['a']}, {pair['b']} | {outcome(pair)} | {pair['true_overlap_ratio']:.2f} "
+        tracked = ", ".join(f"{sessions[pair[k]]['camera_rmse_mm']:.1f}" for k in "ab")
+        lines.append(f"| {pair['a']}, {pair['b']} | {outcome(pair)} | {tracked} | {pair['true_overlap_ratio']:.2f} "
                      f"| {np.degrees(pair['true_turn_rad'] or 0):.0f} | {first} | {right} | {pair['reason'][:90]} |")
     return "\n".join(lines)
