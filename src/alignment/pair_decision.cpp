@@ -30,8 +30,7 @@ const std::string REMEDY =
 
 const std::string NOT_TURNED =
     "the two fit best as if the object had not been turned over in between: turn it over and record again, or, if it "
-    "lay "
-    "as before, accept that pose or allow for it (same_pose_probability of the session_aligner, or "
+    "lay as before, accept that pose or allow for it (same_pose_probability of the session_aligner, or "
     "--same-pose-probability, 0.5)";
 
 std::string percent(double ratio)
