@@ -1,14 +1,14 @@
 # Explicit lists: a message that is not listed is not generated.
 add_message_files(FILES
   Status.msg Plane.msg SensorNoiseModel.msg SensorCalibration.msg
-  Observation.msg Keyframe.msg ObjectMask.msg PoseUpdate.msg Session.msg StoreState.msg TrackingState.msg
+  Observation.msg Keyframe.msg ObjectMask.msg PoseUpdate.msg StageMark.msg Session.msg SessionChange.msg StoreState.msg TrackingState.msg
   Progress.msg ObjectHypothesis.msg Hypotheses.msg SessionPlacement.msg AlignmentCandidate.msg AlignmentEdge.msg
   AlignmentRecord.msg IcpResidual.msg KeyframeResidual.msg
   KeyframeLink.msg SessionRefinement.msg StageTime.msg ObjectSummary.msg BuiltObject.msg ManagerState.msg
   SessionLeftOut.msg)
 add_service_files(FILES
   StartTracking.srv StopTracking.srv ResetTracking.srv
-  CreateSession.srv ListSessions.srv GetSession.srv UpdateSession.srv SetSessionPose.srv DeleteSession.srv
+  CreateSession.srv ListSessions.srv GetSession.srv UpdateSession.srv ChangeSession.srv SetSessionPose.srv DeleteSession.srv
   AddKeyframe.srv GetKeyframe.srv UpdatePoses.srv UpdateMasks.srv GetAlignments.srv UpdateAlignments.srv
   ExportSession.srv ImportSession.srv
   Segment.srv SelectHypothesis.srv SetRoi.srv ClearSelection.srv

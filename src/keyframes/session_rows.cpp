@@ -14,13 +14,15 @@ using base::StatusCode;
 
 const char* const SESSION_COLUMNS =
     "SELECT session_id, object_id, camera_frame_id, started_s, reference_is_object, closed, "
-    "support_plane_session, model_from_session, calibration, refinement_report, "
-    "(SELECT COUNT(*) FROM keyframes WHERE keyframes.session_id = sessions.session_id) FROM sessions ";
+    "support_plane_session, model_from_session, calibration, refinement_report, refined_by, refined_options, "
+    "segmented_by, segmented_options, (SELECT COUNT(*) FROM keyframes WHERE keyframes.session_id = "
+    "sessions.session_id) FROM sessions ";
 
 /// The columns as they travel to and from SQL; empty optional columns are NULL.
 struct SessionRow
 {
   std::string id, object_id, camera_frame_id, support_plane, model_from_session, calibration, refinement_report;
+  StageMark refined, segmented;
   double started_s = 0;
   int reference_is_object = 0, closed = 0, keyframe_count = 0;
   soci::indicator has_support_plane = soci::i_null, has_model_from_session = soci::i_null,
@@ -54,6 +56,8 @@ SessionRow rowFrom(const Session& session)
     row.has_calibration = soci::i_ok;
   }
   row.refinement_report = session.refinement_report;
+  row.refined = session.refined;
+  row.segmented = session.segmented;
   return row;
 }
 
@@ -79,6 +83,18 @@ Session sessionFrom(const SessionRow& row)
   if (row.has_calibration == soci::i_ok)
     session.calibration = rgbd::calibrationFromText(row.calibration, "calibration of session '" + row.id + "'");
   session.refinement_report = row.refinement_report;
+  session.refined = row.refined;
+  session.segmented = row.segmented;
+  return session;
+}
+
+/// What a change says of the optional columns.
+Session sessionWith(const SessionChange& change)
+{
+  Session session;
+  session.support_plane_session = change.support_plane_session.value_or(std::nullopt);
+  session.T_model_session = change.T_model_session.value_or(std::nullopt);
+  session.calibration = change.calibration.value_or(rgbd::SensorCalibration());
   return session;
 }
 
@@ -97,6 +113,10 @@ std::vector<Session> fetchSessions(soci::session& sql, const std::string& condit
   statement.exchange(soci::into(row.model_from_session, row.has_model_from_session));
   statement.exchange(soci::into(row.calibration, row.has_calibration));
   statement.exchange(soci::into(row.refinement_report));
+  statement.exchange(soci::into(row.refined.by));
+  statement.exchange(soci::into(row.refined.options));
+  statement.exchange(soci::into(row.segmented.by));
+  statement.exchange(soci::into(row.segmented.options));
   statement.exchange(soci::into(row.keyframe_count));
   if (session_id != nullptr)
     statement.exchange(soci::use(*session_id, "session_id"));
@@ -119,13 +139,15 @@ void insertSession(soci::session& sql, const Session& session)
                 "session '" + session.id + "' exists already; choose another id or delete that session first");
   SessionRow row = rowFrom(session);
   sql << "INSERT INTO sessions (session_id, object_id, camera_frame_id, started_s, reference_is_object, closed, "
-         "support_plane_session, model_from_session, calibration, refinement_report) VALUES (:session_id, :object_id, "
-         ":camera_frame_id, :started_s, :reference_is_object, :closed, :support_plane, :model_from_session, "
-         ":calibration, :refinement_report)",
+         "support_plane_session, model_from_session, calibration, refinement_report, refined_by, refined_options, "
+         "segmented_by, segmented_options) VALUES (:session_id, :object_id, :camera_frame_id, :started_s, "
+         ":reference_is_object, :closed, :support_plane, :model_from_session, :calibration, :refinement_report, "
+         ":refined_by, :refined_options, :segmented_by, :segmented_options)",
       soci::use(row.id), soci::use(row.object_id), soci::use(row.camera_frame_id), soci::use(row.started_s),
       soci::use(row.reference_is_object), soci::use(row.closed), soci::use(row.support_plane, row.has_support_plane),
       soci::use(row.model_from_session, row.has_model_from_session), soci::use(row.calibration, row.has_calibration),
-      soci::use(row.refinement_report);
+      soci::use(row.refinement_report), soci::use(row.refined.by), soci::use(row.refined.options),
+      soci::use(row.segmented.by), soci::use(row.segmented.options);
 }
 
 std::vector<Session> selectSessions(soci::session& sql)
@@ -143,17 +165,41 @@ Session selectSession(soci::session& sql, const std::string& session_id)
   return sessions.front();
 }
 
-void updateSessionRow(soci::session& sql, const Session& session)
+void updateSessionRow(soci::session& sql, const std::string& session_id, const SessionChange& change)
 {
-  selectSession(sql, session.id);
-  SessionRow row = rowFrom(session);
-  sql << "UPDATE sessions SET object_id = :object_id, reference_is_object = :reference_is_object, closed = :closed, "
-         "support_plane_session = :support_plane, model_from_session = :model_from_session, "
-         "calibration = :calibration, refinement_report = :refinement_report WHERE session_id = :session_id",
-      soci::use(row.object_id), soci::use(row.reference_is_object), soci::use(row.closed),
-      soci::use(row.support_plane, row.has_support_plane),
-      soci::use(row.model_from_session, row.has_model_from_session), soci::use(row.calibration, row.has_calibration),
-      soci::use(row.refinement_report), soci::use(row.id);
+  selectSession(sql, session_id);
+  // A column each: what another process wrote meanwhile to the others stays.
+  const auto set = [&](const std::string& column, const auto& value, soci::indicator& has)
+  {
+    sql << "UPDATE sessions SET " << column << " = :value WHERE session_id = :session_id", soci::use(value, has),
+        soci::use(session_id);
+  };
+  soci::indicator there = soci::i_ok;
+  if (change.object_id)
+    set("object_id", *change.object_id, there);
+  if (change.reference_is_object)
+    set("reference_is_object", static_cast<int>(*change.reference_is_object), there);
+  if (change.closed)
+    set("closed", static_cast<int>(*change.closed), there);
+  SessionRow row = rowFrom(sessionWith(change));
+  if (change.support_plane_session)
+    set("support_plane_session", row.support_plane, row.has_support_plane);
+  if (change.T_model_session)
+    set("model_from_session", row.model_from_session, row.has_model_from_session);
+  if (change.calibration)
+    set("calibration", row.calibration, row.has_calibration);
+  if (change.refinement_report)
+    set("refinement_report", *change.refinement_report, there);
+  if (change.refined)
+  {
+    set("refined_by", change.refined->by, there);
+    set("refined_options", change.refined->options, there);
+  }
+  if (change.segmented)
+  {
+    set("segmented_by", change.segmented->by, there);
+    set("segmented_options", change.segmented->options, there);
+  }
 }
 
 void deleteSessionRows(soci::session& sql, const std::string& session_id)

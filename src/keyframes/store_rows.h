@@ -15,7 +15,8 @@ namespace object_modelling::keyframes
 void insertSession(soci::session& sql, const Session& session);
 std::vector<Session> selectSessions(soci::session& sql);
 Session selectSession(soci::session& sql, const std::string& session_id);
-void updateSessionRow(soci::session& sql, const Session& session);
+/// Of the session alone: its poses and masks are the keyframes'.
+void updateSessionRow(soci::session& sql, const std::string& session_id, const SessionChange& change);
 void deleteSessionRows(soci::session& sql, const std::string& session_id);
 
 void insertKeyframe(soci::session& sql, const SqlDialect& dialect, const std::string& session_id,

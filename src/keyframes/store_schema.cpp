@@ -47,6 +47,15 @@ void createAlignments(soci::session& sql, const SqlDialect&)
       << "findings TEXT NOT NULL, PRIMARY KEY (session_a, session_b))";
 }
 
+void addStageMarks(soci::session& sql, const SqlDialect&)
+{
+  for (const char* column : { "refined_by", "refined_options", "segmented_by", "segmented_options" })
+    sql << "ALTER TABLE sessions ADD COLUMN " << column << " TEXT NOT NULL DEFAULT ''";
+  // Up to here, side products told that a stage had been done; how is not known.
+  sql << "UPDATE sessions SET refined_by = 'unknown' WHERE refinement_report <> ''";
+  sql << "UPDATE sessions SET segmented_by = 'unknown' WHERE support_plane_session IS NOT NULL";
+}
+
 int readVersion(soci::session& sql, const SqlDialect& dialect)
 {
   const std::vector<std::string> tables = dialect.tables(sql);
@@ -65,7 +74,8 @@ int readVersion(soci::session& sql, const SqlDialect& dialect)
 
 const std::vector<Migration>& storeMigrations()
 {
-  static const std::vector<Migration> MIGRATIONS = { createTables, addCalibrationAndReport, createAlignments };
+  static const std::vector<Migration> MIGRATIONS = { createTables, addCalibrationAndReport, createAlignments,
+                                                     addStageMarks };
   return MIGRATIONS;
 }
 

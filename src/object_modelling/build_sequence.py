@@ -1,7 +1,7 @@
 """Order of the stages that make an object from stored sessions; free of ROS.
 
 `jobs` offers list_sessions() and session(id) (objects with session_id, object_id, keyframe_count,
-refinement_report, has_support_plane) and the long jobs
+refined and segmented, marks with `by`) and the long jobs
 refine(ids, progress), segment(id, progress), align(ids, require_all, progress) -> placements, left_out, note and
 build(object_id, name, placements, left_out, replace, progress) -> built, note. All raise Failure. A note tells what a job
 that succeeded could not do; else it is empty.
@@ -66,12 +66,12 @@ def build(jobs, request, session_ids, progress, clock):
         return left
 
     def refine(report):
-        unrefined = pending(lambda session: session.refinement_report, report)
+        unrefined = pending(lambda session: session.refined.by, report)
         if unrefined:
             jobs.refine(unrefined, report)
 
     def segment(report):
-        unsegmented = pending(lambda session: session.has_support_plane, report)
+        unsegmented = pending(lambda session: session.segmented.by, report)
         for index, session_id in enumerate(unsegmented):
             prefix = "" if len(unsegmented) == 1 else "%d of %d, " % (index + 1, len(unsegmented))
             jobs.segment(session_id, lambda step, done, total: report(prefix + step, done, total))

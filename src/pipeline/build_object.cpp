@@ -268,7 +268,7 @@ void Build::write()
   report_.point_count = model_.cloud.size();
   report_.vertex_count = model_.mesh.vertices.size();
   report_.triangle_count = model_.mesh.triangles.size();
-  updateSessions(store_, model_, &views_);
+  updateSessions(store_, model_);
   timer_.finish("write");
 }
 }  // namespace

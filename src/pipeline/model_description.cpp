@@ -67,22 +67,21 @@ std::string partialText(const database::ObjectModel& model)
          std::to_string(model.sessions.size() + model.sessions_left_out.size()) + " sessions, without " + without;
 }
 
-void updateSessions(keyframes::SessionStore& store, const database::ObjectModel& model, Views* views)
+void updateSessions(keyframes::SessionStore& store, const database::ObjectModel& model)
 {
-  for (std::size_t i = 0; i < views->sessions.size(); ++i)
+  keyframes::SessionChange change;
+  change.object_id = model.id;
+  for (const database::ModelSession& session : model.sessions)
   {
-    views->sessions[i].object_id = model.id;
-    views->sessions[i].T_model_session = model.sessions[i].T_model_session;
-    store.updateSession(views->sessions[i]);
+    change.T_model_session = session.T_model_session;
+    store.update(session.id, change);
   }
+  change.T_model_session = std::optional<Eigen::Isometry3d>();
   for (const database::LeftOutSession& left_out : model.sessions_left_out)
   {
-    keyframes::Session session = store.session(left_out.id);
-    if (!session.object_id.empty() && session.object_id != model.id)
-      continue;  // another object's
-    session.object_id = model.id;
-    session.T_model_session.reset();
-    store.updateSession(session);
+    const std::string owner = store.session(left_out.id).object_id;
+    if (owner.empty() || owner == model.id)  // else another object's
+      store.update(left_out.id, change);
   }
 }
 

@@ -24,6 +24,6 @@ void describe(const Views& views, const std::vector<alignment::SessionPlacement>
 std::string partialText(const database::ObjectModel& model);
 
 /// Tells the store which sessions the model has, and where; those left out belong to the object, but lie nowhere in it.
-void updateSessions(keyframes::SessionStore& store, const database::ObjectModel& model, Views* views);
+void updateSessions(keyframes::SessionStore& store, const database::ObjectModel& model);
 
 }  // namespace object_modelling::pipeline

@@ -45,8 +45,9 @@ public:
   {
     if (store_)
     {
-      session_.closed = true;
-      store_->updateSession(session_);
+      keyframes::SessionChange change;
+      change.closed = true;
+      store_->update(session_.id, change);
     }
     committed_ = true;
   }

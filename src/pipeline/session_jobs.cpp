@@ -2,6 +2,7 @@
 
 #include "object_modelling/pipeline/session_refinement.h"
 #include "session_loading.h"
+#include "stage_marks.h"
 
 namespace object_modelling::pipeline
 {
@@ -11,7 +12,7 @@ SegmentReport segmentSession(keyframes::SessionStore& store, const std::string& 
 {
   SegmentReport report;
   report.session_id = session_id;
-  keyframes::Session session = store.session(session_id);
+  const keyframes::Session session = store.session(session_id);
   const std::vector<rgbd::Keyframe> keyframes = loadReported(store, session_id, control);
   report.keyframe_count = static_cast<int>(keyframes.size());
   if (keyframes.empty())
@@ -32,16 +33,16 @@ SegmentReport segmentSession(keyframes::SessionStore& store, const std::string& 
   if (!masks.status.ok())
     return report;
 
-  std::vector<keyframes::MaskUpdate> updates;
+  keyframes::SessionChange change;
   for (std::size_t i = 0; i < views.size(); ++i)
   {
-    updates.push_back({ views[i].id, masks.masks[i] });
+    change.masks.push_back({ views[i].id, masks.masks[i] });
     report.masked_count += !masks.masks[i].empty();
   }
-  store.updateMasks(session_id, updates);
   report.support_plane_found = masks.support_plane_session.has_value();
-  session.support_plane_session = masks.support_plane_session;
-  store.updateSession(session);
+  change.support_plane_session = masks.support_plane_session;
+  change.segmented = segmentationMark(seed_point_session, options);
+  store.update(session_id, change);
   return report;
 }
 

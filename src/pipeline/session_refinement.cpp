@@ -7,6 +7,7 @@
 #include "object_modelling/segmentation/object_follower.h"
 #include "refinement_report.h"
 #include "session_loading.h"
+#include "stage_marks.h"
 
 namespace object_modelling::pipeline
 {
@@ -47,6 +48,24 @@ bool takeOver(const Result& result, std::vector<rgbd::Keyframe>* keyframes)
         i < result.covariance.size() ? result.covariance[i] : geometry::Matrix6d(geometry::Matrix6d::Zero());
   }
   return true;
+}
+/// What is written. The report of an earlier bundle adjustment goes with the poses that it was of.
+keyframes::SessionChange changeBy(const SessionRefinement& refined, const std::vector<rgbd::Keyframe>& keyframes,
+                                  const keyframes::Session& before, const RefinementOptions& options)
+{
+  keyframes::SessionChange change;
+  for (const rgbd::Keyframe& keyframe : keyframes)
+    change.poses.push_back({ keyframe.id, keyframe.T_session_camera, keyframe.covariance });
+  change.refined = refinementMark(options);
+  change.refinement_report = "";
+  if (!refined.bundle_adjustment || !refined.bundle_adjustment->status.ok())
+    return change;
+  change.refinement_report = refinementReportYaml(*refined.bundle_adjustment);
+  change.calibration = before.calibration;
+  change.calibration->correction = before.calibration.correction.then(refined.bundle_adjustment->sensor);
+  if (options.bundle_adjustment.calibrate_color_offset)
+    change.calibration->color_offset_px = refined.bundle_adjustment->color_offset_px;
+  return change;
 }
 }  // namespace
 
@@ -106,30 +125,30 @@ SessionRefinement refineSessionBy(keyframes::SessionStore& store, const std::str
   if (!moved)
     return refined;
   control.checkCancelled();
-  std::vector<keyframes::PoseUpdate> updates;
-  for (const rgbd::Keyframe& keyframe : keyframes)
-    updates.push_back({ keyframe.id, keyframe.T_session_camera, keyframe.covariance });
-  store.updatePoses(session_id, updates);
-  if (refined.bundle_adjustment && refined.bundle_adjustment->status.ok())
-  {
-    keyframes::Session current = store.session(session_id);
-    current.refinement_report = refinementReportYaml(*refined.bundle_adjustment);
-    current.calibration.correction = current.calibration.correction.then(refined.bundle_adjustment->sensor);
-    if (options.bundle_adjustment.calibrate_color_offset)
-      current.calibration.color_offset_px = refined.bundle_adjustment->color_offset_px;
-    store.updateSession(current);
-  }
+  store.update(session_id, changeBy(refined, keyframes, session, options));
   return refined;
+}
+
+std::string nameOf(RefinementMethod method)
+{
+  switch (method)
+  {
+    case RefinementMethod::BUNDLE_ADJUSTMENT:
+      return "bundle_adjustment";
+    case RefinementMethod::MULTI_VIEW_ICP:
+      return "multi_view_icp";
+    case RefinementMethod::BOTH:
+      break;
+  }
+  return "both";
 }
 
 RefinementMethod refinementMethodFrom(const std::string& name)
 {
-  if (name == "bundle_adjustment")
-    return RefinementMethod::BUNDLE_ADJUSTMENT;
-  if (name == "multi_view_icp")
-    return RefinementMethod::MULTI_VIEW_ICP;
-  if (name == "both")
-    return RefinementMethod::BOTH;
+  for (const RefinementMethod method :
+       { RefinementMethod::BUNDLE_ADJUSTMENT, RefinementMethod::MULTI_VIEW_ICP, RefinementMethod::BOTH })
+    if (nameOf(method) == name)
+      return method;
   throw base::Error(base::StatusCode::INVALID_ARGUMENT, "refinement method '" + name +
                                                             "' is not known: use bundle_adjustment, multi_view_icp or "
                                                             "both");

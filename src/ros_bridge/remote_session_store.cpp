@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include <object_modelling/AddKeyframe.h>
+#include <object_modelling/ChangeSession.h>
 #include <object_modelling/CreateSession.h>
 #include <object_modelling/DeleteSession.h>
 #include <object_modelling/ExportSession.h>
@@ -14,9 +15,6 @@
 #include <object_modelling/ImportSession.h>
 #include <object_modelling/ListSessions.h>
 #include <object_modelling/UpdateAlignments.h>
-#include <object_modelling/UpdateMasks.h>
-#include <object_modelling/UpdatePoses.h>
-#include <object_modelling/UpdateSession.h>
 #include <ros/service.h>
 
 #include "object_modelling/base/options.h"
@@ -104,11 +102,12 @@ keyframes::Session RemoteSessionStore::session(const std::string& session_id)
   return fromMessage(service.response.session);
 }
 
-void RemoteSessionStore::updateSession(const keyframes::Session& session)
+void RemoteSessionStore::update(const std::string& session_id, const keyframes::SessionChange& change)
 {
-  object_modelling::UpdateSession service;
-  service.request.session = toMessage(session);
-  call(names::UPDATE_SESSION, service);
+  object_modelling::ChangeSession service;
+  service.request.session_id = session_id;
+  service.request.change = toMessage(change);
+  call(names::CHANGE_SESSION, service);
 }
 
 void RemoteSessionStore::deleteSession(const std::string& session_id)
@@ -140,24 +139,6 @@ rgbd::Keyframe RemoteSessionStore::keyframe(const std::string& session_id, int k
   service.request.keyframe_id = keyframe_id;
   call(names::GET_KEYFRAME, service);
   return fromMessage(service.response.keyframe);
-}
-
-void RemoteSessionStore::updatePoses(const std::string& session_id, const std::vector<keyframes::PoseUpdate>& updates)
-{
-  object_modelling::UpdatePoses service;
-  service.request.session_id = session_id;
-  for (const keyframes::PoseUpdate& update : updates)
-    service.request.updates.push_back(toMessage(update));
-  call(names::UPDATE_POSES, service);
-}
-
-void RemoteSessionStore::updateMasks(const std::string& session_id, const std::vector<keyframes::MaskUpdate>& updates)
-{
-  object_modelling::UpdateMasks service;
-  service.request.session_id = session_id;
-  for (const keyframes::MaskUpdate& update : updates)
-    service.request.updates.push_back(toMessage(update, session_id));
-  call(names::UPDATE_MASKS, service);
 }
 
 std::vector<keyframes::AlignmentRecord> RemoteSessionStore::alignments()

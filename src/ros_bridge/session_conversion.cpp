@@ -1,11 +1,47 @@
 #include "object_modelling/ros_bridge/session_conversion.h"
 
+#include "object_modelling/ros_bridge/keyframe_conversion.h"
 #include "object_modelling/ros_bridge/noise_model_conversion.h"
 #include "object_modelling/ros_bridge/pose_conversion.h"
 #include "object_modelling/ros_bridge/time_conversion.h"
 
 namespace object_modelling::ros_bridge
 {
+namespace
+{
+object_modelling::StageMark toMessage(const keyframes::StageMark& mark)
+{
+  object_modelling::StageMark message;
+  message.by = mark.by;
+  message.options = mark.options;
+  return message;
+}
+
+keyframes::StageMark fromMessage(const object_modelling::StageMark& message)
+{
+  return { message.by, message.options };
+}
+
+std::optional<geometry::Plane> supportPlaneFrom(const object_modelling::Session& message)
+{
+  if (!message.has_support_plane)
+    return std::nullopt;
+  return ros_bridge::fromMessage(message.support_plane);
+}
+
+std::optional<Eigen::Isometry3d> modelPoseFrom(const object_modelling::Session& message)
+{
+  if (!message.has_model_from_session)
+    return std::nullopt;
+  return ros_bridge::fromMessage(message.model_from_session);
+}
+
+rgbd::SensorCalibration calibrationFrom(const object_modelling::Session& message)
+{
+  return message.has_calibration ? ros_bridge::fromMessage(message.calibration) : rgbd::SensorCalibration();
+}
+}  // namespace
+
 object_modelling::Session toMessage(const keyframes::Session& session)
 {
   object_modelling::Session message;
@@ -23,6 +59,8 @@ object_modelling::Session toMessage(const keyframes::Session& session)
   message.has_calibration = true;
   message.calibration = toMessage(session.calibration);
   message.refinement_report = session.refinement_report;
+  message.refined = toMessage(session.refined);
+  message.segmented = toMessage(session.segmented);
   return message;
 }
 
@@ -36,14 +74,72 @@ keyframes::Session fromMessage(const object_modelling::Session& message)
   session.keyframe_count = message.keyframe_count;
   session.reference_is_object = message.reference_is_object;
   session.closed = message.closed;
-  if (message.has_support_plane)
-    session.support_plane_session = fromMessage(message.support_plane);
-  if (message.has_model_from_session)
-    session.T_model_session = fromMessage(message.model_from_session);
-  if (message.has_calibration)
-    session.calibration = fromMessage(message.calibration);
+  session.support_plane_session = supportPlaneFrom(message);
+  session.T_model_session = modelPoseFrom(message);
+  session.calibration = calibrationFrom(message);
   session.refinement_report = message.refinement_report;
+  session.refined = fromMessage(message.refined);
+  session.segmented = fromMessage(message.segmented);
   return session;
+}
+
+object_modelling::SessionChange toMessage(const keyframes::SessionChange& change)
+{
+  object_modelling::SessionChange message;
+  for (const keyframes::PoseUpdate& update : change.poses)
+    message.poses.push_back(toMessage(update));
+  for (const keyframes::MaskUpdate& update : change.masks)
+    message.masks.push_back(toMessage(update, std::string()));
+  message.set_object_id = change.object_id.has_value();
+  message.set_reference_is_object = change.reference_is_object.has_value();
+  message.set_closed = change.closed.has_value();
+  message.set_support_plane = change.support_plane_session.has_value();
+  message.set_model_from_session = change.T_model_session.has_value();
+  message.set_calibration = change.calibration.has_value();
+  message.set_refinement_report = change.refinement_report.has_value();
+  message.set_refined = change.refined.has_value();
+  message.set_segmented = change.segmented.has_value();
+  keyframes::Session values;
+  values.object_id = change.object_id.value_or("");
+  values.reference_is_object = change.reference_is_object.value_or(false);
+  values.closed = change.closed.value_or(false);
+  values.support_plane_session = change.support_plane_session.value_or(std::nullopt);
+  values.T_model_session = change.T_model_session.value_or(std::nullopt);
+  values.calibration = change.calibration.value_or(rgbd::SensorCalibration());
+  values.refinement_report = change.refinement_report.value_or("");
+  values.refined = change.refined.value_or(keyframes::StageMark());
+  values.segmented = change.segmented.value_or(keyframes::StageMark());
+  message.session = toMessage(values);
+  return message;
+}
+
+keyframes::SessionChange fromMessage(const object_modelling::SessionChange& message)
+{
+  const object_modelling::Session& values = message.session;
+  keyframes::SessionChange change;
+  for (const object_modelling::PoseUpdate& update : message.poses)
+    change.poses.push_back(fromMessage(update));
+  for (const object_modelling::ObjectMask& update : message.masks)
+    change.masks.push_back(fromMessage(update));
+  if (message.set_object_id)
+    change.object_id = values.object_id;
+  if (message.set_reference_is_object)
+    change.reference_is_object = values.reference_is_object;
+  if (message.set_closed)
+    change.closed = values.closed;
+  if (message.set_support_plane)
+    change.support_plane_session = supportPlaneFrom(values);
+  if (message.set_model_from_session)
+    change.T_model_session = modelPoseFrom(values);
+  if (message.set_calibration)
+    change.calibration = calibrationFrom(values);
+  if (message.set_refinement_report)
+    change.refinement_report = values.refinement_report;
+  if (message.set_refined)
+    change.refined = fromMessage(values.refined);
+  if (message.set_segmented)
+    change.segmented = fromMessage(values.segmented);
+  return change;
 }
 
 object_modelling::AlignmentRecord toMessage(const keyframes::AlignmentRecord& record)

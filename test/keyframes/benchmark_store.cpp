@@ -73,7 +73,7 @@ int main(int argc, char** argv)
     read.push_back(timed([&] { store->keyframe("benchmark", id); }));
   print("addKeyframe", add);
   print("keyframe", read);
-  print("updatePoses of all", { timed([&] { store->updatePoses("benchmark", poses); }) });
+  print("poses of all", { timed([&] { store->update("benchmark", SessionChange::ofPoses(poses)); }) });
   print("listSessions", { timed([&] { store->listSessions(); }) });
   print("exportSession", { timed([&] { store->exportSession("benchmark", "/tmp/benchmark.session"); }) });
   std::filesystem::remove("/tmp/benchmark.session");

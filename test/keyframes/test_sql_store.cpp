@@ -130,7 +130,7 @@ TEST_P(SqlStore, UpdatesSessions)
   changed.T_model_session = Eigen::Isometry3d::Identity();
   changed.calibration = makeCalibration();
   changed.refinement_report = "it's \xc3\xa9\n100 % refined";
-  store_->updateSession(changed);
+  store_->update(changed.id, SessionChange::toAllOf(changed));
   Session read = store_->session("a");
   EXPECT_TRUE(read.calibration == changed.calibration);
   EXPECT_EQ(read.refinement_report, changed.refinement_report);
@@ -140,7 +140,7 @@ TEST_P(SqlStore, UpdatesSessions)
   EXPECT_TRUE(read.T_model_session);
   changed.T_model_session.reset();
   changed.calibration = rgbd::SensorCalibration();
-  store_->updateSession(changed);
+  store_->update(changed.id, SessionChange::toAllOf(changed));
   EXPECT_TRUE(store_->session("a").calibration == rgbd::SensorCalibration());
   EXPECT_FALSE(store_->session("a").T_model_session);
 }
@@ -165,7 +165,7 @@ TEST_P(SqlStore, KeyframesAreCorrectedByTheirSessionsCalibration)
   Session calibrated = store_->session("a");
   calibrated.calibration.correction.focal_ratio = { 1.01, 0.99 };
   calibrated.calibration.correction.depth_offset_m = 0.005;
-  store_->updateSession(calibrated);
+  store_->update(calibrated.id, SessionChange::toAllOf(calibrated));
   EXPECT_TRUE(store_->session("a").calibration == calibrated.calibration);
   const rgbd::Keyframe after = store_->keyframe("a", 0);
   EXPECT_DOUBLE_EQ(after.frame.camera.fx, 1.01 * before.frame.camera.fx);
@@ -218,25 +218,31 @@ TEST_P(SqlStore, UpdatesPosesAllOrNone)
   store_->addKeyframe("a", makeKeyframe(0));
   store_->addKeyframe("a", makeKeyframe(1));
   const rgbd::Keyframe moved = makeKeyframe(7);
-  store_->updatePoses("a", { { 1, moved.T_session_camera, moved.covariance } });
+  store_->update("a", SessionChange::ofPoses({ { 1, moved.T_session_camera, moved.covariance } }));
   EXPECT_EQ(store_->keyframe("a", 1).T_session_camera.matrix(), moved.T_session_camera.matrix());
   EXPECT_EQ(store_->keyframe("a", 1).covariance, moved.covariance);
 
   const Eigen::Isometry3d other = makeKeyframe(9).T_session_camera;
-  EXPECT_EQ(codeOf(
-                [&] {
-                  store_->updatePoses("a", { { 0, other, NO_COVARIANCE }, { 42, other, NO_COVARIANCE } });
-                }),
-            StatusCode::NOT_FOUND);
+  EXPECT_EQ(
+      codeOf(
+          [&] {
+            store_->update("a", SessionChange::ofPoses({ { 0, other, NO_COVARIANCE }, { 42, other, NO_COVARIANCE } }));
+          }),
+      StatusCode::NOT_FOUND);
   EXPECT_EQ(store_->keyframe("a", 0).T_session_camera.matrix(), makeKeyframe(0).T_session_camera.matrix());
-  EXPECT_EQ(codeOf(
-                [&] {
-                  store_->updatePoses("a", { { 0, other, NO_COVARIANCE }, { 0, other, NO_COVARIANCE } });
-                }),
-            StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(
+      codeOf(
+          [&] {
+            store_->update("a", SessionChange::ofPoses({ { 0, other, NO_COVARIANCE }, { 0, other, NO_COVARIANCE } }));
+          }),
+      StatusCode::INVALID_ARGUMENT);
   Eigen::Isometry3d broken = other;
   broken(0, 3) = std::nan("");
-  EXPECT_EQ(codeOf([&] { store_->updatePoses("a", { { 0, broken, NO_COVARIANCE } }); }), StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(codeOf(
+                [&] {
+                  store_->update("a", SessionChange::ofPoses({ { 0, broken, NO_COVARIANCE } }));
+                }),
+            StatusCode::INVALID_ARGUMENT);
 }
 
 TEST_P(SqlStore, UpdatesMasksAllOrNone)
@@ -247,19 +253,23 @@ TEST_P(SqlStore, UpdatesMasksAllOrNone)
   cv::Mat mask(48, 64, CV_8UC1, cv::Scalar(0));
   mask.at<unsigned char>(3, 4) = 255;
   const auto countIn = [&](int id) { return cv::countNonZero(store_->keyframe("a", id).frame.object_mask); };
-  store_->updateMasks("a", { { 0, mask }, { 1, cv::Mat() } });
+  store_->update("a", SessionChange::ofMasks({ { 0, mask }, { 1, cv::Mat() } }));
   EXPECT_EQ(countIn(0), 1);
   EXPECT_TRUE(store_->keyframe("a", 1).frame.object_mask.empty());
-  store_->updateMasks("a", { { 1, mask } });
+  store_->update("a", SessionChange::ofMasks({ { 1, mask } }));
   EXPECT_EQ(countIn(1), 1);
 
   mask.setTo(255);
   EXPECT_EQ(codeOf(
                 [&] {
-                  store_->updateMasks("a", { { 0, mask }, { 1, mask.rowRange(0, 5) } });
+                  store_->update("a", SessionChange::ofMasks({ { 0, mask }, { 1, mask.rowRange(0, 5) } }));
                 }),
             StatusCode::INVALID_ARGUMENT);
-  EXPECT_EQ(codeOf([&] { store_->updateMasks("a", { { 0, mask }, { 8, mask } }); }), StatusCode::NOT_FOUND);
+  EXPECT_EQ(codeOf(
+                [&] {
+                  store_->update("a", SessionChange::ofMasks({ { 0, mask }, { 8, mask } }));
+                }),
+            StatusCode::NOT_FOUND);
   EXPECT_EQ(countIn(0), 1);
 }
 
@@ -282,13 +292,14 @@ TEST_P(SqlStore, SaysWhatIsMissingOrTaken)
   const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   for (const std::function<void()>& call :
        std::vector<std::function<void()>>{
-           [&] { store_->session("none"); }, [&] { store_->updateSession(makeSession("none")); },
+           [&] { store_->session("none"); }, [&] { store_->update("none", {}); },
            [&] { store_->deleteSession("none"); }, [&] { store_->addKeyframe("none", makeKeyframe(0)); },
            [&] { store_->keyframeIds("none"); }, [&] { store_->keyframe("none", 0); },
            [&] {
-             store_->updatePoses("none", { { 0, pose, NO_COVARIANCE } });
+             store_->update("none", SessionChange::ofPoses({ { 0, pose, NO_COVARIANCE } }));
            },
-           [&] { store_->updateMasks("none", {}); }, [&] { store_->exportSession("none", folder_.path("out.db")); } })
+           [&] { store_->update("none", SessionChange::ofMasks({})); },
+           [&] { store_->exportSession("none", folder_.path("out.db")); } })
   {
     const base::Status status = statusOf(call);
     EXPECT_EQ(status.code, StatusCode::NOT_FOUND);
@@ -353,7 +364,7 @@ TEST_P(SqlStore, ServesSeveralThreads)
                 [&]
                 {
                   store_->addKeyframe("a", makeKeyframe(id));
-                  store_->updatePoses("a", { { id, Eigen::Isometry3d::Identity(), NO_COVARIANCE } });
+                  store_->update("a", SessionChange::ofPoses({ { id, Eigen::Isometry3d::Identity(), NO_COVARIANCE } }));
                   if (store_->keyframe("a", id).id != id || store_->listSessions().size() != 1)
                     ++failures;
                 });

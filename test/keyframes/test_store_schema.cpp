@@ -77,12 +77,36 @@ TEST_P(StoreSchema, TakesAStoreOfVersionOneWithItsSessions)
   EXPECT_EQ(session.refinement_report, "");
   session.calibration.color_offset_px = { 0.3, -0.1 };
   session.refinement_report = "bundle adjustment";
-  store->updateSession(session);
+  store->update(session.id, SessionChange::toAllOf(session));
   EXPECT_TRUE(store->session("a").calibration == session.calibration);
   EXPECT_EQ(store->session("a").refinement_report, "bundle adjustment");
   store->createSession(makeSession("b"));
   store->updateAlignments({ { "a", "b", "found" } });
   EXPECT_EQ(store->alignments().size(), 1u);
+}
+
+TEST_P(StoreSchema, KnowsWhatWasDoneBeforeThereWereMarks)
+{
+  const std::vector<Migration> before(storeMigrations().begin(), storeMigrations().begin() + 3);
+  migrate(*connect(), before);
+  const auto insert = [&](const std::string& id, const std::string& plane, const std::string& report)
+  {
+    execute(
+        "INSERT INTO sessions (session_id, object_id, camera_frame_id, started_s, reference_is_object, closed, "
+        "support_plane_session, refinement_report) VALUES ('" +
+        id + "', '', 'cam', 1, 0, 1, " + plane + ", '" + report + "')");
+  };
+  insert("new", "NULL", "");
+  insert("refined", "NULL", "iterations: 3");
+  insert("segmented", "'0 0 -1 0.5'", "");
+  const std::unique_ptr<SessionStore> store = openSqlStore(connection_);
+  EXPECT_EQ(version(), static_cast<int>(storeMigrations().size()));
+  EXPECT_EQ(store->session("new").refined, StageMark());
+  EXPECT_EQ(store->session("new").segmented, StageMark());
+  EXPECT_EQ(store->session("refined").refined, (StageMark{ stage_mark::UNKNOWN, "" }));
+  EXPECT_FALSE(store->session("refined").segmented.done());
+  EXPECT_EQ(store->session("segmented").segmented, (StageMark{ stage_mark::UNKNOWN, "" }));
+  EXPECT_FALSE(store->session("segmented").refined.done());
 }
 
 TEST_P(StoreSchema, MigrationsKeepTheData)

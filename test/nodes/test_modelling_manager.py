@@ -155,8 +155,8 @@ class BuildTest(ManagerTest):
 
     def test_what_was_done_is_done_again_on_request_only(self):
         self.recording.add("s1", "mug")
-        self.recording.sessions["s1"].refinement_report = "done"
-        self.recording.sessions["s1"].has_support_plane = True
+        self.recording.sessions["s1"].refined.by = "multi_view_icp"
+        self.recording.sessions["s1"].segmented.by = "automatic"
         self.recording.add("s2", "mug")
         self.build(wait=True)
         self.assertEqual(self.jobs.refine.goals[0].session_ids, ["s2"])

@@ -43,7 +43,7 @@ protected:
     std::vector<keyframes::MaskUpdate> updates;
     for (const int id : store_->keyframeIds(session_id))
       updates.push_back({ id, cv::Mat() });
-    store_->updateMasks(session_id, updates);
+    store_->update(session_id, keyframes::SessionChange::ofMasks(updates));
   }
 
   test_support::TempDir folder_;

@@ -46,7 +46,7 @@ TEST_F(BuildObject, SaysWhatIsMissingAndKeepsTheOldObject)
   std::vector<keyframes::MaskUpdate> black;
   for (const int id : store_->keyframeIds("box"))
     black.push_back({ id, cv::Mat::zeros(240, 320, CV_8UC1) });
-  store_->updateMasks("box", black);
+  store_->update("box", keyframes::SessionChange::ofMasks(black));
   EXPECT_EQ(build({ "box" }).status.code, StatusCode::NO_RESULT);
   removeMasks("box");
 
@@ -74,7 +74,7 @@ TEST_F(BuildObject, LeavesEverythingAsItWasWhenCancelledInAnyStage)
   keyframes::Session session = store_->session("box");
   session.object_id.clear();
   session.T_model_session.reset();
-  store_->updateSession(session);
+  store_->update(session.id, keyframes::SessionChange::toAllOf(session));
   const std::string before = fingerprint(*store_, "box");
 
   BuildOptions finer = coarse();

@@ -143,7 +143,7 @@ TEST_F(BuildObject, KeepsTheFrameWhenItsSessionIsBuiltAgain)
     mask(cv::Rect(0, 0, mask.cols, box.y + box.height / 2)).setTo(0);
     updates.push_back({ keyframe.id, mask });
   }
-  store_->updateMasks("box", updates);
+  store_->update("box", keyframes::SessionChange::ofMasks(updates));
   ASSERT_TRUE(build({ "box" }).status.ok());
   EXPECT_NE(contentHash(), first);
   const database::ObjectEntry entry = database_.entry("carton");
@@ -158,6 +158,23 @@ TEST_F(BuildObject, KeepsTheFrameWhenItsSessionIsBuiltAgain)
   EXPECT_EQ(database_.entry("carton").sessions.size(), 2u);
   EXPECT_TRANSFORM_NEAR(*store_->session("box").T_model_session, T_model_session, 1e-9, 1e-7);
   EXPECT_TRANSFORM_NEAR(*store_->session("more").T_model_session, T_model_session, 1e-9, 1e-7);
+}
+
+TEST_F(BuildObject, LeavesToOthersWhatItDoesNotMake)
+{
+  const auto other = keyframes::openSqlStore(folder_.path("store.db"));
+  keyframes::SessionChange meanwhile;
+  meanwhile.refined = keyframes::StageMark{ "both", "" };
+  meanwhile.support_plane_session = geometry::Plane{ Eigen::Vector3d(0, 0, -1), 0.123 };
+  base::JobControl interrupted([&](const base::Progress&) { other->update("box", meanwhile); });
+  const BuildReport report = buildObject(*store_, database_, "carton", "", { { "box", Eigen::Isometry3d::Identity() } },
+                                         coarse(), interrupted);
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  const keyframes::Session session = store_->session("box");
+  EXPECT_EQ(session.object_id, "carton");
+  EXPECT_TRUE(session.T_model_session);
+  EXPECT_EQ(session.refined.by, "both");
+  EXPECT_EQ(session.support_plane_session->offset_m, 0.123);
 }
 
 TEST_F(BuildObject, ChangesTheFrameOfAnObjectOnlyOnRequest)

@@ -118,7 +118,7 @@ TEST_F(SessionJobs, RefineWritesThePosesBack)
       T.translation() += Eigen::Vector3d(0.006, keyframe.id % 2 == 0 ? 0.006 : -0.006, 0);
     moved.push_back({ keyframe.id, T, keyframe.covariance });
   }
-  store_->updatePoses(WALK, moved);
+  store_->update(WALK, keyframes::SessionChange::ofPoses(moved));
   EXPECT_GT(worstPosition_m(), 0.006);
 
   const refinement::BundleAdjustmentResult result = refineSession(*store_, WALK, {}, control_);
@@ -133,13 +133,56 @@ TEST_F(SessionJobs, RefineWritesThePosesBack)
   }
 }
 
+TEST_F(SessionJobs, EachStageLeavesItsMark)
+{
+  EXPECT_FALSE(store_->session(WALK).refined.done() || store_->session(WALK).segmented.done());
+  RefinementOptions surfaces_alone;
+  surfaces_alone.method = RefinementMethod::MULTI_VIEW_ICP;
+  ASSERT_TRUE(refineSessionBy(*store_, WALK, surfaces_alone, control_).status.ok());
+  EXPECT_EQ(store_->session(WALK).refined.by, "multi_view_icp");
+  EXPECT_NE(store_->session(WALK).refined.options.find("start_error_m: 0.03"), std::string::npos)
+      << store_->session(WALK).refined.options;
+  ASSERT_TRUE(refineSession(*store_, WALK, {}, control_).status.ok());
+  EXPECT_EQ(store_->session(WALK).refined.by, "bundle_adjustment");
+  ASSERT_TRUE(segmentSession(*store_, WALK, std::nullopt, {}, control_).status.ok());
+  EXPECT_EQ(store_->session(WALK).segmented.by, keyframes::stage_mark::AUTOMATIC);
+  const Eigen::Vector3d centre_session = recording_.T_object_cameras[0].inverse() * Eigen::Vector3d::Zero();
+  ASSERT_TRUE(segmentSession(*store_, WALK, centre_session, {}, control_).status.ok());
+  EXPECT_EQ(store_->session(WALK).segmented.by, keyframes::stage_mark::BY_HAND);
+  EXPECT_NE(store_->session(WALK).segmented.options.find("seed_point_session_m: ["), std::string::npos);
+}
+
+TEST_F(SessionJobs, AReportGoesWithThePosesThatItIsOf)
+{
+  ASSERT_TRUE(refineSession(*store_, WALK, {}, control_).status.ok());
+  EXPECT_NE(store_->session(WALK).refinement_report, "");
+  RefinementOptions surfaces_alone;
+  surfaces_alone.method = RefinementMethod::MULTI_VIEW_ICP;
+  ASSERT_TRUE(refineSessionBy(*store_, WALK, surfaces_alone, control_).status.ok());
+  EXPECT_EQ(store_->session(WALK).refinement_report, "");
+}
+
+TEST_F(SessionJobs, LeaveToOthersWhatTheyDoNotMake)
+{
+  const auto other = keyframes::openSqlStore(folder_.path("store.db"));
+  keyframes::SessionChange meanwhile;
+  meanwhile.object_id = "named_meanwhile";
+  base::JobControl interrupted([&](const base::Progress&) { other->update(WALK, meanwhile); });
+  ASSERT_TRUE(segmentSession(*store_, WALK, std::nullopt, {}, interrupted).status.ok());
+  EXPECT_EQ(store_->session(WALK).object_id, "named_meanwhile");
+  meanwhile.object_id = "named_again";
+  ASSERT_TRUE(refineSession(*store_, WALK, {}, interrupted).status.ok());
+  EXPECT_EQ(store_->session(WALK).object_id, "named_again");
+  EXPECT_TRUE(store_->session(WALK).segmented.done());
+}
+
 TEST_F(SessionJobs, RefineUsesTheObjectAloneWhereTheRestMoves)
 {
   ASSERT_TRUE(segmentSession(*store_, WALK, std::nullopt, {}, control_).status.ok());
   const int whole_scene = refinedObservationCount();
   keyframes::Session session = store_->session(WALK);
   session.reference_is_object = true;
-  store_->updateSession(session);
+  store_->update(session.id, keyframes::SessionChange::toAllOf(session));
   const int object_alone = refinedObservationCount();
   EXPECT_GT(object_alone, 0);
   EXPECT_LT(object_alone, whole_scene / 2);

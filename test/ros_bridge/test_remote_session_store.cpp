@@ -80,8 +80,8 @@ TEST_F(RemoteSessionStoreTest, Updates)
   store_.addKeyframe(id_, keyframeOf(0));
   Eigen::Isometry3d T_session_camera = Eigen::Isometry3d::Identity();
   T_session_camera.translation().z() = 0.25;
-  store_.updatePoses(id_, { { 0, T_session_camera, geometry::Matrix6d::Identity() } });
-  store_.updateMasks(id_, { { 0, cv::Mat(24, 32, CV_8UC1, cv::Scalar(255)) } });
+  store_.update(id_, keyframes::SessionChange::ofPoses({ { 0, T_session_camera, geometry::Matrix6d::Identity() } }));
+  store_.update(id_, keyframes::SessionChange::ofMasks({ { 0, cv::Mat(24, 32, CV_8UC1, cv::Scalar(255)) } }));
   const rgbd::Keyframe keyframe = store_.keyframe(id_, 0);
   EXPECT_EQ(0.25, keyframe.T_session_camera.translation().z());
   EXPECT_EQ(24 * 32, cv::countNonZero(keyframe.frame.object_mask));
@@ -94,13 +94,46 @@ TEST_F(RemoteSessionStoreTest, Updates)
   session.calibration.noise_model.axial_constant_m = 0.002;
   session.refinement_report = "refined";
   session.support_plane_session = geometry::Plane();
-  store_.updateSession(session);
+  store_.update(session.id, keyframes::SessionChange::toAllOf(session));
   session = store_.session(id_);
   EXPECT_EQ("mug", session.object_id);
   EXPECT_TRUE(session.closed && session.T_model_session && session.support_plane_session);
   EXPECT_EQ(0.002, session.calibration.noise_model.axial_constant_m);
   EXPECT_EQ("refined", session.refinement_report);
   EXPECT_EQ(0.002, store_.keyframe(id_, 0).frame.noise_model.axial_constant_m);
+}
+
+TEST_F(RemoteSessionStoreTest, ChangesWhatIsSetAndAllOfIt)
+{
+  store_.addKeyframe(id_, keyframeOf(0));
+  keyframes::SessionChange change;
+  change.poses = { { 0, Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.5)), geometry::Matrix6d::Identity() } };
+  change.masks = { { 0, cv::Mat(24, 32, CV_8UC1, cv::Scalar(255)) } };
+  change.support_plane_session = geometry::Plane{ Eigen::Vector3d(0, 0, -1), 0.7 };
+  change.refined = keyframes::StageMark{ "both", "{}" };
+  change.segmented = keyframes::StageMark{ keyframes::stage_mark::BY_HAND, "" };
+  store_.update(id_, change);
+  keyframes::Session session = store_.session(id_);
+  EXPECT_EQ("both", session.refined.by);
+  EXPECT_EQ("{}", session.refined.options);
+  EXPECT_EQ(keyframes::stage_mark::BY_HAND, session.segmented.by);
+  ASSERT_TRUE(session.support_plane_session);
+  EXPECT_EQ(0.7, session.support_plane_session->offset_m);
+  EXPECT_EQ("cam", session.camera_frame_id);
+  EXPECT_EQ(0.5, store_.keyframe(id_, 0).T_session_camera.translation().z());
+  EXPECT_EQ(24 * 32, cv::countNonZero(store_.keyframe(id_, 0).frame.object_mask));
+
+  keyframes::SessionChange taken_away;
+  taken_away.support_plane_session = std::optional<geometry::Plane>();
+  taken_away.refined = keyframes::StageMark();
+  store_.update(id_, taken_away);
+  session = store_.session(id_);
+  EXPECT_FALSE(session.support_plane_session || session.refined.done());
+  EXPECT_TRUE(session.segmented.done());
+
+  change.poses.push_back({ 7, Eigen::Isometry3d::Identity(), geometry::Matrix6d::Identity() });
+  EXPECT_EQ(base::StatusCode::NOT_FOUND, codeOf([&] { store_.update(id_, change); }));
+  EXPECT_FALSE(store_.session(id_).refined.done());
 }
 
 TEST_F(RemoteSessionStoreTest, ErrorsKeepTheirCode)

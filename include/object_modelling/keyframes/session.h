@@ -8,6 +8,23 @@
 
 namespace object_modelling::keyframes
 {
+/// That a stage has been done on a session, and how.
+struct StageMark
+{
+  std::string by;       ///< what did it; empty: not done. Unknown where a store from before marks says that it was
+  std::string options;  ///< YAML of what it was asked for; empty where that is not known
+  bool done() const { return !by.empty(); }
+  bool operator==(const StageMark& other) const { return by == other.by && options == other.options; }
+};
+
+/// What `by` of a mark says.
+namespace stage_mark
+{
+constexpr char UNKNOWN[] = "unknown";
+constexpr char AUTOMATIC[] = "automatic";  ///< segmented: the object was chosen by the program
+constexpr char BY_HAND[] = "by_hand";      ///< segmented: a person named a point on it
+}  // namespace stage_mark
+
 /// One recording of one object in one resting pose.
 struct Session
 {
@@ -24,6 +41,8 @@ struct Session
   /// Of the sensor that recorded it; what the noise model knows of bias is off the stored depth already.
   rgbd::SensorCalibration calibration;
   std::string refinement_report;  ///< YAML of the last bundle adjustment; empty if there was none
+  StageMark refined;              ///< by a method of refinement (pipeline::RefinementMethod)
+  StageMark segmented;            ///< masks are there, and the support plane if there is one to be found
 };
 
 /// Whether a name can be used as session or object id everywhere (files, topics, SQL): 1 to 64 of [A-Za-z0-9_.-], not

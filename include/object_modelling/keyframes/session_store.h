@@ -7,23 +7,11 @@
 #include "object_modelling/base/status.h"
 #include "object_modelling/keyframes/alignment_record.h"
 #include "object_modelling/keyframes/session.h"
+#include "object_modelling/keyframes/session_change.h"
 #include "object_modelling/rgbd/keyframe.h"
 
 namespace object_modelling::keyframes
 {
-struct PoseUpdate
-{
-  int keyframe_id = -1;
-  Eigen::Isometry3d T_session_camera = Eigen::Isometry3d::Identity();
-  geometry::Matrix6d covariance = geometry::Matrix6d::Zero();
-};
-
-struct MaskUpdate
-{
-  int keyframe_id = -1;
-  cv::Mat object_mask;  ///< CV_8UC1, of the keyframe's size; empty removes it
-};
-
 /// Owner of session data. Implemented over SQL (openSqlStore) and, in ros_bridge, over the keyframe_store node's
 /// services; every stage takes this interface. Every call is one transaction: done whole or not at all.
 /// All calls throw base::Error: NOT_FOUND (session, keyframe), INVALID_ARGUMENT (id, size), FAILED_PRECONDITION (exists
@@ -36,9 +24,8 @@ public:
   virtual void createSession(const Session& session) = 0;
   virtual std::vector<Session> listSessions() = 0;  ///< oldest first
   virtual Session session(const std::string& session_id) = 0;
-  /// Replaces object_id, reference_is_object, closed, support_plane_session, T_model_session, calibration and
-  /// refinement_report.
-  virtual void updateSession(const Session& session) = 0;
+  /// Writes what the change sets, poses and masks too: all or nothing.
+  virtual void update(const std::string& session_id, const SessionChange& change) = 0;
   virtual void deleteSession(const std::string& session_id) = 0;
 
   /// Sets the session's started_s too if this is its first keyframe and started_s is 0. Depth is kept to within half of
@@ -47,8 +34,6 @@ public:
   virtual std::vector<int> keyframeIds(const std::string& session_id) = 0;  ///< ascending
   /// Its frame has the noise model of the session, and is corrected by its calibration.
   virtual rgbd::Keyframe keyframe(const std::string& session_id, int keyframe_id) = 0;
-  virtual void updatePoses(const std::string& session_id, const std::vector<PoseUpdate>& updates) = 0;
-  virtual void updateMasks(const std::string& session_id, const std::vector<MaskUpdate>& updates) = 0;
 
   /// How sessions lie to each other, as far as that is known; ordered by their ids.
   virtual std::vector<AlignmentRecord> alignments() = 0;

@@ -43,7 +43,8 @@ struct SessionRefinement
 SessionRefinement refineSessionBy(keyframes::SessionStore& store, const std::string& session_id,
                                   RefinementOptions options, base::JobControl& control);
 
-/// "bundle_adjustment", "multi_view_icp" or "both"; INVALID_ARGUMENT for anything else.
+std::string nameOf(RefinementMethod method);
+/// The method of that name: "bundle_adjustment", "multi_view_icp" or "both"; INVALID_ARGUMENT for anything else.
 RefinementMethod refinementMethodFrom(const std::string& name);
 
 }  // namespace object_modelling::pipeline

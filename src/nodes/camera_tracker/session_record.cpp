@@ -49,7 +49,7 @@ std::string SessionRecord::freeId(const std::string& session_id)
 std::vector<rgbd::Keyframe> SessionRecord::reopen(const std::string& session_id,
                                                   const rgbd::SensorNoiseModel& noise_model)
 {
-  keyframes::Session session = store_.session(session_id);
+  const keyframes::Session session = store_.session(session_id);
   if (session.calibration.noise_model != noise_model)
     throw base::Error(base::StatusCode::FAILED_PRECONDITION,
                       "session '" + session_id +
@@ -59,11 +59,13 @@ std::vector<rgbd::Keyframe> SessionRecord::reopen(const std::string& session_id,
   if (keyframes.empty())
     throw base::Error(base::StatusCode::NO_RESULT,
                       "session '" + session_id + "' has no keyframes to continue from; delete it and start anew");
-  session.closed = false;
   // The keyframes to come are not refined and show no object yet.
-  session.refinement_report.clear();
-  session.support_plane_session.reset();
-  store_.updateSession(session);
+  keyframes::SessionChange change;
+  change.closed = false;
+  change.refined = change.segmented = keyframes::StageMark();
+  change.refinement_report = "";
+  change.support_plane_session = std::optional<geometry::Plane>();
+  store_.update(session_id, change);
   return keyframes;
 }
 
@@ -76,8 +78,9 @@ void SessionRecord::finish(const std::string& session_id, int sent_keyframe_coun
     std::this_thread::sleep_for(POLL_PERIOD);
     session = store_.session(session_id);
   }
-  session.closed = true;
-  store_.updateSession(session);
+  keyframes::SessionChange change;
+  change.closed = true;
+  store_.update(session_id, change);
   if (session.keyframe_count < sent_keyframe_count)
     throw base::Error(base::StatusCode::STORAGE, "the keyframe store has " + std::to_string(session.keyframe_count) +
                                                      " of the " + std::to_string(sent_keyframe_count) +

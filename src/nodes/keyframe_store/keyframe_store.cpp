@@ -51,8 +51,10 @@ void KeyframeStore::takeKeyframe(const object_modelling::Keyframe::ConstPtr& mes
 
 void KeyframeStore::takeMask(const object_modelling::ObjectMask::ConstPtr& message)
 {
-  const base::Status status =
-      ros_bridge::guarded([&] { store_.updateMasks(message->session_id, { ros_bridge::fromMessage(*message) }); });
+  const base::Status status = ros_bridge::guarded(
+      [&] {
+        store_.update(message->session_id, keyframes::SessionChange::ofMasks({ ros_bridge::fromMessage(*message) }));
+      });
   if (status.ok())
     return;
   ++refused_count_;

@@ -26,6 +26,7 @@ StoreServices::StoreServices(ros::NodeHandle& private_node, keyframes::SessionSt
   serve<ListSessions>(private_node, names::LIST_SESSIONS, &StoreServices::listSessions);
   serve<GetSession>(private_node, names::GET_SESSION, &StoreServices::getSession);
   serve<UpdateSession>(private_node, names::UPDATE_SESSION, &StoreServices::updateSession);
+  serve<ChangeSession>(private_node, names::CHANGE_SESSION, &StoreServices::changeSession);
   serve<SetSessionPose>(private_node, names::SET_SESSION_POSE, &StoreServices::setSessionPose);
   serve<DeleteSession>(private_node, names::DELETE_SESSION, &StoreServices::deleteSession);
   serve<AddKeyframe>(private_node, names::ADD_KEYFRAME, &StoreServices::addKeyframe);
@@ -58,16 +59,23 @@ void StoreServices::getSession(const GetSession::Request& request, GetSession::R
 
 void StoreServices::updateSession(const UpdateSession::Request& request, UpdateSession::Response&)
 {
-  store_.updateSession(ros_bridge::fromMessage(request.session));
+  const keyframes::Session session = ros_bridge::fromMessage(request.session);
+  store_.update(session.id, keyframes::SessionChange::toAllOf(session));
+}
+
+void StoreServices::changeSession(const ChangeSession::Request& request, ChangeSession::Response&)
+{
+  store_.update(request.session_id, ros_bridge::fromMessage(request.change));
 }
 
 void StoreServices::setSessionPose(const SetSessionPose::Request& request, SetSessionPose::Response&)
 {
-  keyframes::Session session = store_.session(request.session_id);
-  session.T_model_session.reset();
+  std::optional<Eigen::Isometry3d> T_model_session;
   if (request.has_model_from_session)
-    session.T_model_session = ros_bridge::fromMessage(request.model_from_session);
-  store_.updateSession(session);
+    T_model_session = ros_bridge::fromMessage(request.model_from_session);
+  keyframes::SessionChange change;
+  change.T_model_session = T_model_session;
+  store_.update(request.session_id, change);
 }
 
 void StoreServices::deleteSession(const DeleteSession::Request& request, DeleteSession::Response&)
@@ -92,7 +100,7 @@ void StoreServices::updatePoses(const UpdatePoses::Request& request, UpdatePoses
   std::vector<keyframes::PoseUpdate> updates;
   for (const PoseUpdate& update : request.updates)
     updates.push_back(ros_bridge::fromMessage(update));
-  store_.updatePoses(request.session_id, updates);
+  store_.update(request.session_id, keyframes::SessionChange::ofPoses(std::move(updates)));
 }
 
 void StoreServices::updateMasks(const UpdateMasks::Request& request, UpdateMasks::Response&)
@@ -100,7 +108,7 @@ void StoreServices::updateMasks(const UpdateMasks::Request& request, UpdateMasks
   std::vector<keyframes::MaskUpdate> updates;
   for (const ObjectMask& update : request.updates)
     updates.push_back(ros_bridge::fromMessage(update));
-  store_.updateMasks(request.session_id, updates);
+  store_.update(request.session_id, keyframes::SessionChange::ofMasks(std::move(updates)));
 }
 
 void StoreServices::getAlignments(const GetAlignments::Request&, GetAlignments::Response& response)

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <object_modelling/AddKeyframe.h>
+#include <object_modelling/ChangeSession.h>
 #include <object_modelling/CreateSession.h>
 #include <object_modelling/DeleteSession.h>
 #include <object_modelling/ExportSession.h>
@@ -40,6 +41,7 @@ private:
   void listSessions(const ListSessions::Request& request, ListSessions::Response& response);
   void getSession(const GetSession::Request& request, GetSession::Response& response);
   void updateSession(const UpdateSession::Request& request, UpdateSession::Response& response);
+  void changeSession(const ChangeSession::Request& request, ChangeSession::Response& response);
   void setSessionPose(const SetSessionPose::Request& request, SetSessionPose::Response& response);
   void deleteSession(const DeleteSession::Request& request, DeleteSession::Response& response);
   void addKeyframe(const AddKeyframe::Request& request, AddKeyframe::Response& response);

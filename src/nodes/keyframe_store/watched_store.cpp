@@ -46,9 +46,16 @@ keyframes::Session WatchedStore::session(const std::string& session_id)
   return opened().session(session_id);
 }
 
-void WatchedStore::updateSession(const keyframes::Session& session)
+void WatchedStore::update(const std::string& session_id, const keyframes::SessionChange& change)
 {
-  write([&](keyframes::SessionStore& store) { store.updateSession(session); });
+  write([&](keyframes::SessionStore& store) { store.update(session_id, change); },
+        [&]
+        {
+          if (!change.poses.empty())
+            watcher_.onPoses(session_id, change.poses);
+          if (!change.masks.empty())
+            watcher_.onMasks(session_id, change.masks);
+        });
 }
 
 void WatchedStore::deleteSession(const std::string& session_id)
@@ -71,18 +78,6 @@ std::vector<int> WatchedStore::keyframeIds(const std::string& session_id)
 rgbd::Keyframe WatchedStore::keyframe(const std::string& session_id, int keyframe_id)
 {
   return opened().keyframe(session_id, keyframe_id);
-}
-
-void WatchedStore::updatePoses(const std::string& session_id, const std::vector<keyframes::PoseUpdate>& updates)
-{
-  write([&](keyframes::SessionStore& store) { store.updatePoses(session_id, updates); },
-        [&] { watcher_.onPoses(session_id, updates); });
-}
-
-void WatchedStore::updateMasks(const std::string& session_id, const std::vector<keyframes::MaskUpdate>& updates)
-{
-  write([&](keyframes::SessionStore& store) { store.updateMasks(session_id, updates); },
-        [&] { watcher_.onMasks(session_id, updates); });
 }
 
 std::vector<keyframes::AlignmentRecord> WatchedStore::alignments()

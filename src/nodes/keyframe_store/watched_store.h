@@ -32,14 +32,12 @@ public:
   void createSession(const keyframes::Session& session) override;
   std::vector<keyframes::Session> listSessions() override;
   keyframes::Session session(const std::string& session_id) override;
-  void updateSession(const keyframes::Session& session) override;
+  void update(const std::string& session_id, const keyframes::SessionChange& change) override;
   void deleteSession(const std::string& session_id) override;
 
   void addKeyframe(const std::string& session_id, const rgbd::Keyframe& keyframe) override;
   std::vector<int> keyframeIds(const std::string& session_id) override;
   rgbd::Keyframe keyframe(const std::string& session_id, int keyframe_id) override;
-  void updatePoses(const std::string& session_id, const std::vector<keyframes::PoseUpdate>& updates) override;
-  void updateMasks(const std::string& session_id, const std::vector<keyframes::MaskUpdate>& updates) override;
 
   std::vector<keyframes::AlignmentRecord> alignments() override;
   void updateAlignments(const std::vector<keyframes::AlignmentRecord>& records) override;

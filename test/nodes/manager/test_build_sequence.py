@@ -4,8 +4,10 @@ import unittest
 from object_modelling import build_sequence
 from object_modelling.outcome import Code, Failure
 
+Mark = collections.namedtuple("Mark", "by")
+UNDONE = Mark("")
 Session = collections.namedtuple(
-    "Session", "session_id object_id keyframe_count refinement_report has_support_plane", defaults=("", False))
+    "Session", "session_id object_id keyframe_count refined segmented", defaults=(UNDONE, UNDONE))
 
 
 Request = collections.namedtuple("Request", "object_id name replace again require_all")
@@ -106,7 +108,7 @@ class BuildTest(unittest.TestCase):
         return build_sequence.build(jobs, request, ["a", "b"], progress, lambda: next(ticks))
 
     def test_what_was_refined_or_segmented_stays(self):
-        jobs = FakeJobs([Session("a", "mug", 5, "report", True), Session("b", "mug", 6, "report", False)])
+        jobs = FakeJobs([Session("a", "mug", 5, Mark("both"), Mark("by_hand")), Session("b", "mug", 6, Mark("multi_view_icp"))])
         reports = []
         times = self.build(jobs, lambda *report: reports.append(report))[1]
         self.assertEqual([stage for stage, _ in times], ["refine", "segment", "align", "build"])
@@ -115,7 +117,7 @@ class BuildTest(unittest.TestCase):
         self.assertEqual(jobs.calls[:2], [("segment", "b"), ("align", ("a", "b"))])
 
     def test_all_again_on_request(self):
-        jobs = FakeJobs([Session("a", "mug", 5, "report", True), Session("b", "mug", 6, "report", False)])
+        jobs = FakeJobs([Session("a", "mug", 5, Mark("both"), Mark("by_hand")), Session("b", "mug", 6, Mark("multi_view_icp"))])
         self.build(jobs, again=True)
         self.assertEqual(jobs.calls[:3], [("refine", ("a", "b")), ("segment", "a"), ("segment", "b")])
 

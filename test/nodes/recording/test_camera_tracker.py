@@ -124,11 +124,13 @@ class CameraTrackerTest(unittest.TestCase):
         before.session.refinement_report = "of the keyframes so far"
         before.session.has_support_plane = True
         before.session.support_plane.normal.z = 1
+        before.session.refined.by = before.session.segmented.by = "unknown"
         update = rospy.ServiceProxy("left/keyframe_store/update_session", srv.UpdateSession)
         self.assertEqual(update(before.session).status.code, Status.OK)
         self.start("resumed", resume=True)
         again = get_session("left", "resumed").session
         self.assertFalse(again.closed or again.has_support_plane or again.refinement_report)
+        self.assertFalse(again.refined.by or again.segmented.by)
         states = [self.camera.track(index) for index in range(1, 45)]
         self.assertIn(states[-1].status, TRACKED, states[-1].reason)
         ended = self.tracker.stop()

@@ -21,11 +21,12 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from node_process import NodeProcess
 from synthetic_camera import HEIGHT, SCENE, WIDTH, SyntheticCamera, image_message
 from object_modelling import srv
-from object_modelling.msg import Keyframe, ObjectMask, PoseUpdate, Session, Status, StoreState
+from object_modelling.msg import (
+    Keyframe, ObjectMask, PoseUpdate, Session, SessionChange, StageMark, Status, StoreState)
 
 SERVICES = {
     "create_session": srv.CreateSession, "list_sessions": srv.ListSessions, "get_session": srv.GetSession,
-    "update_session": srv.UpdateSession, "set_session_pose": srv.SetSessionPose, "delete_session": srv.DeleteSession,
+    "update_session": srv.UpdateSession, "change_session": srv.ChangeSession, "set_session_pose": srv.SetSessionPose, "delete_session": srv.DeleteSession,
     "add_keyframe": srv.AddKeyframe, "get_keyframe": srv.GetKeyframe, "update_poses": srv.UpdatePoses,
     "update_masks": srv.UpdateMasks, "export_session": srv.ExportSession, "import_session": srv.ImportSession,
 }
@@ -188,6 +189,19 @@ class KeyframeStoreTest(unittest.TestCase):
         self.assertEqual((session.model_from_session.position.x, session.object_id), (2, "mug"))
         self.succeed(store.set_session_pose("s", False, Pose()))
         self.assertFalse(store.get_session("s").session.has_model_from_session)
+
+        change = SessionChange(poses=[PoseUpdate(0, PoseWithCovariance(pose=pose_at(0.25)))], set_refined=True)
+        change.session.refined = StageMark("multi_view_icp", "{}")
+        change.session.object_id = "not set, so not written"
+        self.succeed(store.change_session("s", change))
+        store.wait(lambda: store.path_preview.poses[0].pose.position.x == 0.25)
+        session = self.succeed(store.get_session("s")).session
+        self.assertEqual((session.object_id, session.refined.by), ("mug", "multi_view_icp"))
+        change.poses.append(PoseUpdate(7, PoseWithCovariance(pose=pose_at(0))))
+        change.poses[0].session_from_camera.pose.position.x = 9
+        self.assertEqual(store.change_session("s", change).status.code, Status.NOT_FOUND)
+        self.assertEqual(self.succeed(store.get_keyframe("s", 0)).keyframe.session_from_camera.pose.position.x, 0.25)
+        self.succeed(store.update_poses("s", [PoseUpdate(0, PoseWithCovariance(pose=pose_at(0.5)))]))
 
         path = os.path.join(self.folder, "exported.sqlite")
         self.succeed(store.export_session("s", path))
