@@ -98,6 +98,14 @@ nlohmann::json toJson(const pipeline::SegmentReport& report)
            { "support_plane_found", report.support_plane_found } };
 }
 
+nlohmann::json stageSeconds(const std::vector<pipeline::StageTime>& stages)
+{
+  nlohmann::json seconds = nlohmann::json::object();
+  for (const pipeline::StageTime& time : stages)
+    seconds[time.stage] = time.duration_s;
+  return seconds;
+}
+
 nlohmann::json toJson(const pipeline::BuildReport& report)
 {
   return { { "status", toJson(report.status) },
@@ -108,7 +116,7 @@ nlohmann::json toJson(const pipeline::BuildReport& report)
            { "point_count", report.point_count },
            { "vertex_count", report.vertex_count },
            { "triangle_count", report.triangle_count },
-           { "stage_s", report.stage_s } };
+           { "stage_s", stageSeconds(report.stages) } };
 }
 
 std::string toText(const pipeline::RecordReport& report)

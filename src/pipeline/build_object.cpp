@@ -22,16 +22,22 @@ constexpr int TURNTABLE_STEPS = 8;
 class StageTimer
 {
 public:
-  explicit StageTimer(std::map<std::string, double>* stage_s) : stage_s_(stage_s) {}
+  explicit StageTimer(std::vector<StageTime>* stages) : stages_(stages) {}
   void finish(const std::string& stage)
   {
     const auto now = std::chrono::steady_clock::now();
-    (*stage_s_)[stage] += std::chrono::duration<double>(now - start_).count();
+    const double duration_s = std::chrono::duration<double>(now - start_).count();
     start_ = now;
+    const auto known =
+        std::find_if(stages_->begin(), stages_->end(), [&](const StageTime& time) { return time.stage == stage; });
+    if (known != stages_->end())
+      known->duration_s += duration_s;
+    else
+      stages_->push_back({ stage, duration_s });
   }
 
 private:
-  std::map<std::string, double>* stage_s_;
+  std::vector<StageTime>* stages_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
@@ -136,7 +142,7 @@ private:
   const BuildOptions& options_;
   base::JobControl& control_;
   BuildReport report_;
-  StageTimer timer_{ &report_.stage_s };
+  StageTimer timer_{ &report_.stages };
   Views views_;
   std::optional<Eigen::Isometry3d> T_model_reference_;
   geometry::OrientedBox box_reference_;
@@ -243,7 +249,7 @@ void Build::completeModel()
   model_.preview_bgr = has_texture ? surface::renderFourSides(model_.textured) : surface::renderFourSides(model_.mesh);
   model_.turntable_bgr = has_texture ? surface::renderTurntable(model_.textured, TURNTABLE_STEPS)
                                      : surface::renderTurntable(model_.mesh, TURNTABLE_STEPS);
-  model_.quality_yaml = qualityYaml(model_, views_.sessions, views_.origins, options_, report_.stage_s);
+  model_.quality_yaml = qualityYaml(model_, views_.sessions, views_.origins, options_, report_.stages);
   timer_.finish("describe");
 }
 

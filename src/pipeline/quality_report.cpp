@@ -184,7 +184,7 @@ void emitVersions(YAML::Emitter& out)
 
 std::string qualityYaml(const database::ObjectModel& model, const std::vector<keyframes::Session>& sessions,
                         const std::vector<ViewOrigin>& origins, const BuildOptions& options,
-                        const std::map<std::string, double>& stage_s)
+                        const std::vector<StageTime>& stages)
 {
   YAML::Emitter out;
   out.SetDoublePrecision(9);
@@ -207,8 +207,8 @@ std::string qualityYaml(const database::ObjectModel& model, const std::vector<ke
   emitSessions(out, sessions);
   emitViews(out, model.views, origins);
   begin(out, "stage_s");
-  for (const auto& [stage, seconds] : stage_s)
-    put(out, stage, seconds);
+  for (const StageTime& time : stages)
+    put(out, time.stage, time.duration_s);
   out << YAML::EndMap;
   emitParameters(out, options);
   emitVersions(out);

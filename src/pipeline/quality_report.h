@@ -20,6 +20,6 @@ struct ViewOrigin
 /// Text of quality.yaml (docs/report.md) of a model that is complete but for it. `origins`: one per view.
 std::string qualityYaml(const database::ObjectModel& model, const std::vector<keyframes::Session>& sessions,
                         const std::vector<ViewOrigin>& origins, const BuildOptions& options,
-                        const std::map<std::string, double>& stage_s);
+                        const std::vector<StageTime>& stages);
 
 }  // namespace object_modelling::pipeline

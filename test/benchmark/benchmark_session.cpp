@@ -85,7 +85,8 @@ SessionCost measureSession(keyframes::SessionStore& tracked, std::size_t count)
   const pipeline::BuildReport built =
       pipeline::buildObject(*store, database, "object", "", aligned.placements, options, control);
   require(built.status);
-  cost.stage_s.insert(built.stage_s.begin(), built.stage_s.end());
+  for (const pipeline::StageTime& time : built.stages)
+    cost.stage_s[time.stage] = time.duration_s;
   cost.peak_mb = benchmark_tracking::peakMemory_mb();
   return cost;
 }

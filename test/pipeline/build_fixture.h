@@ -8,6 +8,15 @@
 
 namespace object_modelling::pipeline
 {
+/// The stages that took time, in their order.
+inline std::vector<std::string> stagesOf(const BuildReport& report)
+{
+  std::vector<std::string> names;
+  for (const StageTime& time : report.stages)
+    names.push_back(time.stage);
+  return names;
+}
+
 /// A store with the rendered session "box", and an empty database. Coarse, to be quick.
 class BuildObject : public ::testing::Test
 {

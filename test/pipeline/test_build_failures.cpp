@@ -13,7 +13,7 @@ TEST_F(BuildObject, RefusesHostileIds)
   {
     const BuildReport report = build({ "box" }, coarse(), id);
     EXPECT_EQ(report.status.code, StatusCode::INVALID_ARGUMENT) << id;
-    EXPECT_TRUE(report.stage_s.empty()) << id << " is refused before any work";
+    EXPECT_TRUE(report.stages.empty()) << id << " is refused before any work";
   }
   EXPECT_TRUE(database_.list().empty());
   EXPECT_EQ(store_->session("box").object_id, "");

@@ -70,8 +70,7 @@ TEST_F(BuildObject, WritesTheObjectInItsOwnFrame)
   EXPECT_GT(report.triangle_count, report.vertex_count);
   EXPECT_TRUE(std::filesystem::exists(report.preview_path)) << report.preview_path;
   EXPECT_EQ(report.object_folder, database_.root() + "/carton");
-  for (const std::string stage : { "load", "fuse", "surface", "texture", "write" })
-    EXPECT_EQ(report.stage_s.count(stage), 1u) << stage;
+  EXPECT_EQ(stagesOf(report), (std::vector<std::string>{ "load", "fuse", "surface", "texture", "describe", "write" }));
   for (const std::string name : { "textured.obj", "textured.mtl", "textured.png", "textured.glb" })
     EXPECT_TRUE(std::filesystem::exists(report.object_folder + "/mesh/" + name)) << name;
 

@@ -75,7 +75,8 @@ TEST_F(PartialObject, IsBuiltFromTheBestSessionAndWholeOnceAPersonAcceptsThePair
   EXPECT_EQ(partial.status.message.find("PARTIAL: object 'carton' is built from 1 of its 2 sessions, without 'a_ball'"),
             0u)
       << partial.status.message;
-  EXPECT_EQ(partial.stage_s.count("joint refinement"), 0u) << "of one session there is none";
+  EXPECT_EQ(stagesOf(partial), (std::vector<std::string>{ "load", "fuse", "surface", "texture", "describe", "write" }))
+      << "of one session there is no joint refinement";
   database::ObjectEntry entry = database_.entry("carton");
   EXPECT_TRUE(entry.partial);
   ASSERT_EQ(entry.sessions_left_out.size(), 1u);
@@ -92,7 +93,8 @@ TEST_F(PartialObject, IsBuiltFromTheBestSessionAndWholeOnceAPersonAcceptsThePair
   const BuildReport whole = buildFrom(accepted);
   ASSERT_TRUE(whole.status.ok()) << whole.status.message;
   EXPECT_FALSE(has(whole.status.message, "PARTIAL")) << whole.status.message;
-  EXPECT_EQ(whole.stage_s.count("joint refinement"), 1u);
+  EXPECT_EQ(stagesOf(whole), (std::vector<std::string>{ "load", "joint refinement", "fuse", "surface", "texture",
+                                                        "describe", "write" }));
   entry = database_.entry("carton");
   EXPECT_FALSE(entry.partial);
   EXPECT_EQ(entry.sessions.size(), 2u);

@@ -111,7 +111,7 @@ TEST_F(BuildObject, TheReportIsWrittenWithTheModelAndCanBeMadeAgain)
   EXPECT_EQ(report.status.message, "");
   const std::string path = report.object_folder + "/report.html";
   EXPECT_GT(base::readTextFile(path).size(), 100000u);
-  EXPECT_EQ(report.stage_s.count("report"), 1u);
+  EXPECT_EQ(report.stages.back().stage, "report");
   EXPECT_EQ(database_.check(), std::vector<std::string>());
 
   base::writeTextFile(path, "changed");

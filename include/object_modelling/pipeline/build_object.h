@@ -26,6 +26,13 @@ struct BuildOptions
   std::vector<std::string> violations() const;
 };
 
+/// Time that one stage took.
+struct StageTime
+{
+  std::string stage;
+  double duration_s = 0;
+};
+
 struct BuildReport
 {
   base::Status status;  ///< OK with a message: the model is there, but partial, or without texture or report.html
@@ -34,7 +41,8 @@ struct BuildReport
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  ///< along the object frame's x, y, z
   double diameter_m = 0;
   std::size_t point_count = 0, vertex_count = 0, triangle_count = 0;
-  std::map<std::string, double> stage_s;  ///< seconds by stage
+  /// In their order: load, joint refinement (of several sessions), fuse, surface, texture, describe, write, report.
+  std::vector<StageTime> stages;
 };
 
 /// Fused cloud, mesh, texture, views and report of one object from its placed sessions, written into the database in

@@ -62,15 +62,11 @@ object_modelling::BuiltObject toMessage(const pipeline::BuildReport& report, con
   message.point_count = report.point_count;
   message.vertex_count = report.vertex_count;
   message.triangle_count = report.triangle_count;
-  for (const char* stage : { "load", "fuse", "surface", "describe", "write", "report" })
+  for (const pipeline::StageTime& time : report.stages)
   {
-    const auto found = report.stage_s.find(stage);
-    if (found == report.stage_s.end())
-      continue;
-    object_modelling::StageTime time;
-    time.stage = stage;
-    time.duration_s = found->second;
-    message.stages.push_back(time);
+    message.stages.emplace_back();
+    message.stages.back().stage = time.stage;
+    message.stages.back().duration_s = time.duration_s;
   }
   return message;
 }
