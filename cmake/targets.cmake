@@ -1,6 +1,6 @@
 # Libraries, lowest layer first. README.md, docs/architecture.md and test/architecture read the same order.
 set(OBJECT_MODELLING_LIBRARIES
-  base geometry rgbd source tracking segmentation calibration keyframes refinement fusion surface evaluation
+  base geometry rgbd source features tracking segmentation calibration keyframes refinement fusion surface evaluation
   alignment database pipeline)
 set(OBJECT_MODELLING_EXPORTED_LIBRARIES)
 foreach(_library ${OBJECT_MODELLING_LIBRARIES})

@@ -9,7 +9,7 @@
 #include "object_modelling/base/options.h"
 #include "object_modelling/fusion/cloud_fusion.h"
 #include "object_modelling/geometry/point_index.h"
-#include "object_modelling/refinement/keyframe_features.h"
+#include "object_modelling/features/keyframe_features.h"
 
 namespace object_modelling::alignment
 {
@@ -85,7 +85,7 @@ SpaceView spaceOf(const rgbd::Keyframe& keyframe, const Eigen::Vector3f& centre)
 
 ObjectFeatures featuresOf(const rgbd::Keyframe& keyframe, int max_features)
 {
-  const refinement::KeyframeFeatures found = refinement::detectFeatures(keyframe.frame, max_features, true);
+  const features::KeyframeFeatures found = features::detectFeatures(keyframe.frame, max_features, true);
   ObjectFeatures features;
   features.norm = found.norm;
   for (std::size_t i = 0; i < found.features.size(); ++i)

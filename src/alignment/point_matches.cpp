@@ -1,6 +1,6 @@
 #include "point_matches.h"
 
-#include "object_modelling/refinement/keyframe_features.h"
+#include "object_modelling/features/keyframe_features.h"
 
 namespace object_modelling::alignment
 {
@@ -10,13 +10,13 @@ constexpr double MAX_RATIO = 0.85;
 
 std::vector<PointMatch> matchesOf(const ObjectFeatures& a, const ObjectFeatures& b)
 {
-  refinement::KeyframeFeatures of_a, of_b;
+  features::KeyframeFeatures of_a, of_b;
   of_a.descriptors = a.descriptors;
   of_b.descriptors = b.descriptors;
   of_a.norm = a.norm;
   of_b.norm = b.norm;
   std::vector<PointMatch> matches;
-  for (const refinement::FeatureMatch& match : refinement::matchFeatures(of_a, of_b, MAX_RATIO))
+  for (const features::DescriptorMatch& match : features::matchFeatures(of_a, of_b, MAX_RATIO))
     matches.push_back({ a.points[match.a], b.points[match.b] });
   return matches;
 }

@@ -5,7 +5,7 @@
 
 #include "link_verification.h"
 #include "object_modelling/base/options.h"
-#include "object_modelling/refinement/keyframe_features.h"
+#include "object_modelling/features/keyframe_features.h"
 #include "pair_selection.h"
 
 namespace object_modelling::refinement
@@ -53,10 +53,10 @@ std::vector<VerifiedLink> linkKeyframes(const std::vector<rgbd::Keyframe>& keyfr
                                         base::JobControl& control)
 {
   base::checked(options);
-  std::vector<KeyframeFeatures> features(keyframes.size());
+  std::vector<features::KeyframeFeatures> features(keyframes.size());
   inBatches("keyframe features", static_cast<int>(keyframes.size()), control,
             [&](int k)
-            { features[k] = detectFeatures(keyframes[k].frame, options.max_features, options.object_only); });
+            { features[k] = features::detectFeatures(keyframes[k].frame, options.max_features, options.object_only); });
   const std::vector<IndexPair> pairs = selectPairs(keyframes, features, shared, enough_shared, options);
   std::vector<std::optional<VerifiedLink>> verified(pairs.size());
   inBatches("keyframe links", static_cast<int>(pairs.size()), control,

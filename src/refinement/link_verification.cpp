@@ -22,7 +22,7 @@ constexpr int MIN_COMMON_SAMPLES = 20;
 // Relative pose error of a link, as share of depth, on top of the sensor's noise.
 constexpr double POSE_ALLOWANCE_RATIO = 0.01;
 
-double featureSigma_px(const Feature& feature, double sigma_px)
+double featureSigma_px(const features::Feature& feature, double sigma_px)
 {
   // SIFT localises in proportion to its scale; the finest blobs measure about 4 px across.
   return sigma_px * std::max(1.0, feature.scale_px / 4.0);
@@ -86,15 +86,16 @@ double violationRatio(const rgbd::Frame& from, const rgbd::Frame& onto, const Ei
 }
 
 std::optional<VerifiedLink> verifyLink(const std::vector<rgbd::Keyframe>& keyframes,
-                                       const std::vector<KeyframeFeatures>& features, int a, int b,
+                                       const std::vector<features::KeyframeFeatures>& features, int a, int b,
                                        const KeyframeLinkerOptions& options)
 {
-  std::vector<FeatureMatch> matches;
+  std::vector<features::DescriptorMatch> matches;
   std::vector<PointPair> pairs;
-  for (const FeatureMatch& match : matchFeatures(features[a], features[b], options.max_match_ratio))
+  for (const features::DescriptorMatch& match :
+       features::matchFeatures(features[a], features[b], options.max_match_ratio))
   {
-    const Feature& feature_a = features[a].features[match.a];
-    const Feature& feature_b = features[b].features[match.b];
+    const features::Feature& feature_a = features[a].features[match.a];
+    const features::Feature& feature_b = features[b].features[match.b];
     if (!(feature_a.depth_m > 0) || !(feature_b.depth_m > 0))
       continue;
     matches.push_back(match);
@@ -121,8 +122,8 @@ std::optional<VerifiedLink> verifyLink(const std::vector<rgbd::Keyframe>& keyfra
   link.T_a_b = pose.T_a_b;
   for (int i : pose.inliers)
   {
-    const Feature& feature_a = features[a].features[matches[i].a];
-    const Feature& feature_b = features[b].features[matches[i].b];
+    const features::Feature& feature_a = features[a].features[matches[i].a];
+    const features::Feature& feature_b = features[b].features[matches[i].b];
     link.points.push_back({ matches[i].a, matches[i].b, feature_a.pixel, feature_b.pixel, feature_a.depth_m,
                             feature_b.depth_m, pairs[i].sigma_a_px, pairs[i].sigma_b_px });
   }

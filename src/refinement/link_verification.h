@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "object_modelling/refinement/keyframe_features.h"
+#include "object_modelling/features/keyframe_features.h"
 #include "object_modelling/refinement/keyframe_linker.h"
 
 namespace object_modelling::refinement
@@ -10,7 +10,7 @@ namespace object_modelling::refinement
 /// Matches two keyframes and keeps the result only if it is sure: enough 3-D inliers of the RANSAC motion for the
 /// number of matches, spread over the surface, and surfaces that do not see through each other under that motion.
 std::optional<VerifiedLink> verifyLink(const std::vector<rgbd::Keyframe>& keyframes,
-                                       const std::vector<KeyframeFeatures>& features, int a, int b,
+                                       const std::vector<features::KeyframeFeatures>& features, int a, int b,
                                        const KeyframeLinkerOptions& options);
 
 /// Share of the surface seen by both where `from`'s surface lies in front of `onto`'s although `onto` should see it (or

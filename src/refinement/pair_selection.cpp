@@ -79,8 +79,9 @@ double predictedOverlap(const rgbd::Keyframe& a, const rgbd::Keyframe& b, const 
 }
 
 std::vector<IndexPair> selectPairs(const std::vector<rgbd::Keyframe>& keyframes,
-                                   const std::vector<KeyframeFeatures>& features, const Eigen::MatrixXi& shared,
-                                   int enough_shared, const KeyframeLinkerOptions& options)
+                                   const std::vector<features::KeyframeFeatures>& features,
+                                   const Eigen::MatrixXi& shared, int enough_shared,
+                                   const KeyframeLinkerOptions& options)
 {
   const int count = static_cast<int>(keyframes.size());
   const bool by_appearance = count <= options.appearance_limit;
@@ -99,9 +100,10 @@ std::vector<IndexPair> selectPairs(const std::vector<rgbd::Keyframe>& keyframes,
                             overlapping[a].push_back({ overlap, b });
                           if (!by_appearance || b < a)
                             continue;
-                          const std::size_t matches = matchFeatures(features[a], features[b], options.max_match_ratio,
-                                                                    PREEMPTIVE_FEATURES, PREEMPTIVE_FEATURES)
-                                                          .size();
+                          const std::size_t matches =
+                              features::matchFeatures(features[a], features[b], options.max_match_ratio,
+                                                      PREEMPTIVE_FEATURES, PREEMPTIVE_FEATURES)
+                                  .size();
                           if (matches >= PREEMPTIVE_MATCHES)
                             alike[a].push_back({ static_cast<double>(matches), b });
                         }

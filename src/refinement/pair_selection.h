@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "object_modelling/refinement/keyframe_features.h"
+#include "object_modelling/features/keyframe_features.h"
 #include "object_modelling/refinement/keyframe_linker.h"
 
 namespace object_modelling::refinement
@@ -12,8 +12,9 @@ using IndexPair = std::pair<int, int>;
 
 /// Pairs (a < b, ascending) that are worth matching: see linkKeyframes.
 std::vector<IndexPair> selectPairs(const std::vector<rgbd::Keyframe>& keyframes,
-                                   const std::vector<KeyframeFeatures>& features, const Eigen::MatrixXi& shared,
-                                   int enough_shared, const KeyframeLinkerOptions& options);
+                                   const std::vector<features::KeyframeFeatures>& features,
+                                   const Eigen::MatrixXi& shared, int enough_shared,
+                                   const KeyframeLinkerOptions& options);
 
 /// Share of a's surface (of its object, with `object_only`) that b sees too if the poses are right within some
 /// decimetres, from a direction at most `max_view_angle_rad` off.

@@ -79,14 +79,14 @@ Relocalisation relocalise(const rgbd::Frame& frame, const KeyframeMap& map,
       continue;
     const WideBaselineFeatures& known = keyframe->features(options.features);
     std::vector<Correspondence> correspondences;
-    for (const FeatureMatch& match : matchFeatures(features, known))
+    for (const features::DescriptorMatch& match : matchFeatures(features, known))
     {
-      if (std::isnan(known.depths_m[match.index_b]))
+      if (std::isnan(known.depths_m[match.b]))
         continue;
-      const Eigen::Vector2f& pixel = known.pixels[match.index_b];
+      const Eigen::Vector2f& pixel = known.pixels[match.b];
       correspondences.push_back(
-          { keyframe->T_session_camera * frame.camera.unproject(pixel.x(), pixel.y(), known.depths_m[match.index_b]),
-            features.pixels[match.index_a].cast<double>(), features.depths_m[match.index_a] });
+          { keyframe->T_session_camera * frame.camera.unproject(pixel.x(), pixel.y(), known.depths_m[match.b]),
+            features.pixels[match.a].cast<double>(), features.depths_m[match.a] });
     }
     most_matches = std::max(most_matches, correspondences.size());
     PoseEstimate pose = estimatePose(correspondences, frame.camera, keyframe->T_session_camera, seed, pose_options);

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
+#include "object_modelling/features/described_points.h"
 #include "object_modelling/rgbd/frame.h"
 
 namespace object_modelling::tracking
@@ -27,13 +28,7 @@ struct WideBaselineFeatures
 /// On the frame's object mask, or on all of it where it has none.
 WideBaselineFeatures detectWideBaselineFeatures(const rgbd::Frame& frame, FeatureKind kind);
 
-struct FeatureMatch
-{
-  int index_a = -1;
-  int index_b = -1;
-};
-
-/// Of one kind: mutual nearest neighbours that pass the ratio test (Lowe 2004) in both directions.
-std::vector<FeatureMatch> matchFeatures(const WideBaselineFeatures& a, const WideBaselineFeatures& b);
+/// Of one kind: those that matchDescriptors() finds.
+std::vector<features::DescriptorMatch> matchFeatures(const WideBaselineFeatures& a, const WideBaselineFeatures& b);
 
 }  // namespace object_modelling::tracking

@@ -134,4 +134,30 @@ TEST(WideBaselineFeatures, MatchAcrossAnglesByKind)
   EXPECT_GT(matches(FeatureKind::ROBUST, 0.35), 15u);
   EXPECT_TRUE(matchFeatures(detectWideBaselineFeatures(view(0), FeatureKind::QUICK), {}).empty());
 }
+
+/// A camera that is held upside down sees the same points: what shifts them would be found twice here.
+TEST(WideBaselineFeatures, LieOnTheSamePointsOfAnImageTurnedRound)
+{
+  const rgbd::Frame upright = view(0);
+  rgbd::Frame turned;
+  cv::rotate(upright.gray, turned.gray, cv::ROTATE_180);
+  cv::rotate(upright.depth_m, turned.depth_m, cv::ROTATE_180);
+  const WideBaselineFeatures a = detectWideBaselineFeatures(upright, FeatureKind::ROBUST);
+  const WideBaselineFeatures b = detectWideBaselineFeatures(turned, FeatureKind::ROBUST);
+  const std::vector<features::DescriptorMatch> matches = matchFeatures(a, b);
+  ASSERT_GT(matches.size(), 50u);
+  const Eigen::Vector2f last(upright.gray.cols - 1, upright.gray.rows - 1);
+  std::vector<float> u, v;
+  for (const features::DescriptorMatch& match : matches)
+  {
+    const Eigen::Vector2f off = last - b.pixels[match.b] - a.pixels[match.a];
+    u.push_back(off.x());
+    v.push_back(off.y());
+  }
+  for (std::vector<float>* off : { &u, &v })
+  {
+    std::nth_element(off->begin(), off->begin() + off->size() / 2, off->end());
+    EXPECT_NEAR((*off)[off->size() / 2], 0, 0.05) << "0.5 with OpenCV's own pixels of SIFT";
+  }
+}
 }  // namespace object_modelling::tracking

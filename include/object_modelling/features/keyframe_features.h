@@ -4,9 +4,10 @@
 
 #include <opencv2/core.hpp>
 
+#include "object_modelling/features/described_points.h"
 #include "object_modelling/rgbd/frame.h"
 
-namespace object_modelling::refinement
+namespace object_modelling::features
 {
 struct Feature
 {
@@ -24,18 +25,13 @@ struct KeyframeFeatures
   int norm = 0;         ///< cv::NormTypes that fits the descriptors
 };
 
-/// SIFT (free of patents and in OpenCV's main module from 4.4 on; AKAZE before), at most `max_features` by response.
-/// With `object_only`, only well inside the object mask: a patch across the silhouette describes the background too.
+/// Those of detectScaleInvariant(), at most `max_features` by response. With `object_only`, only well inside the object
+/// mask: a patch across the silhouette describes the background too.
 KeyframeFeatures detectFeatures(const rgbd::Frame& frame, int max_features, bool object_only);
 
-struct FeatureMatch
-{
-  int a = -1, b = -1;  ///< indices into the features
-};
+/// matchDescriptors() of two keyframes, as indices into their features. Uses the first `first_a`, `first_b` features
+/// (those of the largest scale) only; all if 0.
+std::vector<DescriptorMatch> matchFeatures(const KeyframeFeatures& a, const KeyframeFeatures& b, double max_ratio,
+                                           int first_a = 0, int first_b = 0);
 
-/// Mutual nearest neighbours that pass Lowe's ratio test, by `a`. Uses the first `first_a`, `first_b` features (those
-/// of the largest scale) only; all if 0.
-std::vector<FeatureMatch> matchFeatures(const KeyframeFeatures& a, const KeyframeFeatures& b, double max_ratio,
-                                        int first_a = 0, int first_b = 0);
-
-}  // namespace object_modelling::refinement
+}  // namespace object_modelling::features

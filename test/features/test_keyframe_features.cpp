@@ -1,10 +1,10 @@
-#include "object_modelling/refinement/keyframe_features.h"
+#include "object_modelling/features/keyframe_features.h"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
 
-namespace object_modelling::refinement
+namespace object_modelling::features
 {
 namespace
 {
@@ -43,4 +43,4 @@ TEST(KeyframeFeatures, LieWhereTheBlobsAreThoughImagesAreHalved)
 }
 
 }  // namespace
-}  // namespace object_modelling::refinement
+}  // namespace object_modelling::features
