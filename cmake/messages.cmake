@@ -1,7 +1,7 @@
 # Explicit lists: a message that is not listed is not generated.
 add_message_files(FILES
   Status.msg Plane.msg SensorNoiseModel.msg SensorCalibration.msg
-  Observation.msg Keyframe.msg ObjectMask.msg PoseUpdate.msg StageMark.msg Session.msg SessionChange.msg StoreState.msg TrackingState.msg
+  Observation.msg Keyframe.msg EncodedKeyframe.msg KeyframePose.msg ObjectMask.msg PoseUpdate.msg StageMark.msg Session.msg SessionChange.msg StoreState.msg TrackingState.msg
   Progress.msg ObjectHypothesis.msg Hypotheses.msg SessionPlacement.msg AlignmentCandidate.msg AlignmentEdge.msg
   AlignmentRecord.msg IcpResidual.msg KeyframeResidual.msg
   KeyframeLink.msg SessionRefinement.msg StageTime.msg ObjectSummary.msg BuiltObject.msg ManagerState.msg
@@ -9,7 +9,7 @@ add_message_files(FILES
 add_service_files(FILES
   StartTracking.srv StopTracking.srv ResetTracking.srv
   CreateSession.srv ListSessions.srv GetSession.srv UpdateSession.srv ChangeSession.srv SetSessionPose.srv DeleteSession.srv
-  AddKeyframe.srv GetKeyframe.srv UpdatePoses.srv UpdateMasks.srv GetAlignments.srv UpdateAlignments.srv
+  AddKeyframe.srv GetKeyframe.srv GetEncodedKeyframe.srv UpdatePoses.srv UpdateMasks.srv GetAlignments.srv UpdateAlignments.srv
   ExportSession.srv ImportSession.srv
   Segment.srv SelectHypothesis.srv SetRoi.srv ClearSelection.srv
   AcceptAlignment.srv RefuseAlignment.srv ForgetAlignment.srv AlignByPoints.srv ShowAlignment.srv

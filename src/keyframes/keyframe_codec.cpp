@@ -7,6 +7,7 @@
 
 #include "number_text.h"
 #include "object_modelling/base/status.h"
+#include "object_modelling/rgbd/corrected.h"
 #include "object_modelling/rgbd/depth_units.h"
 
 namespace object_modelling::keyframes
@@ -105,11 +106,11 @@ std::string encodeMask(const cv::Mat& object_mask, int width, int height)
   return encodePng(object_mask);
 }
 
-KeyframeRow encodeKeyframe(const rgbd::Keyframe& keyframe)
+EncodedKeyframe encodeKeyframe(const rgbd::Keyframe& keyframe)
 {
   check(keyframe);
   const rgbd::Frame& frame = keyframe.frame;
-  KeyframeRow row;
+  EncodedKeyframe row;
   row.id = keyframe.id;
   row.stamp_s = frame.stamp_s;
   row.camera = frame.camera;
@@ -125,7 +126,7 @@ KeyframeRow encodeKeyframe(const rgbd::Keyframe& keyframe)
   return row;
 }
 
-rgbd::Keyframe decodeKeyframe(const KeyframeRow& row, const std::string& what)
+rgbd::Keyframe decodeKeyframe(const EncodedKeyframe& row, const std::string& what)
 {
   const cv::Size size(row.camera.width, row.camera.height);
   rgbd::Keyframe keyframe;
@@ -143,6 +144,15 @@ rgbd::Keyframe decodeKeyframe(const KeyframeRow& row, const std::string& what)
   if (!row.mask_png.empty())
     frame.object_mask = decodePng(row.mask_png, CV_8UC1, size, "mask of " + what);
   return keyframe;
+}
+
+rgbd::Keyframe decoded(const EncodedKeyframe& encoded, const rgbd::SensorCalibration& calibration,
+                       const std::string& session_id)
+{
+  rgbd::Keyframe keyframe =
+      decodeKeyframe(encoded, "keyframe " + std::to_string(encoded.id) + " of session '" + session_id + "'");
+  keyframe.frame.noise_model = calibration.noise_model;
+  return calibration.correction.isIdentity() ? keyframe : rgbd::corrected(keyframe, calibration.correction);
 }
 
 }  // namespace object_modelling::keyframes

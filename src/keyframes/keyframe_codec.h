@@ -2,29 +2,15 @@
 
 #include <string>
 
-#include "object_modelling/rgbd/keyframe.h"
+#include "object_modelling/keyframes/encoded_keyframe.h"
 
 namespace object_modelling::keyframes
 {
-/// A keyframe as the tables hold it: images and observations as bytes, matrices as text
-/// (docs/keyframe_store_schema.md).
-struct KeyframeRow
-{
-  int id = -1;
-  double stamp_s = 0;
-  geometry::PinholeCamera camera;
-  std::string session_from_camera, covariance;
-  std::string color_png, depth_png;
-  double depth_unit_m = 0;
-  std::string observations;
-  std::string mask_png;  ///< empty: no mask
-};
-
 /// Throws base::Error (INVALID_ARGUMENT) naming what cannot be stored: id, image types and sizes, camera, pose, stamp.
 /// Colour and depth are compressed on two threads: the caller is a tracker that waits.
-KeyframeRow encodeKeyframe(const rgbd::Keyframe& keyframe);
+EncodedKeyframe encodeKeyframe(const rgbd::Keyframe& keyframe);
 /// Throws base::Error (BAD_INPUT) naming the damaged part; `what` names the keyframe.
-rgbd::Keyframe decodeKeyframe(const KeyframeRow& row, const std::string& what);
+rgbd::Keyframe decodeKeyframe(const EncodedKeyframe& row, const std::string& what);
 
 /// "" for an empty mask. Throws base::Error (INVALID_ARGUMENT) if it is not CV_8UC1 of the given size.
 std::string encodeMask(const cv::Mat& object_mask, int width, int height);

@@ -34,7 +34,8 @@ void insertMask(soci::session& sql, const SqlDialect& dialect, const std::string
       soci::use(session_id), soci::use(keyframe_id), soci::use(mask);
 }
 
-void insertImages(soci::session& sql, const SqlDialect& dialect, const std::string& session_id, const KeyframeRow& row)
+void insertImages(soci::session& sql, const SqlDialect& dialect, const std::string& session_id,
+                  const EncodedKeyframe& row)
 {
   const std::string color = dialect.encodeBlob(row.color_png);
   const std::string depth = dialect.encodeBlob(row.depth_png);
@@ -49,7 +50,7 @@ void insertImages(soci::session& sql, const SqlDialect& dialect, const std::stri
 }  // namespace
 
 void insertKeyframe(soci::session& sql, const SqlDialect& dialect, const std::string& session_id,
-                    const KeyframeRow& row)
+                    const EncodedKeyframe& row)
 {
   const Session session = selectSession(sql, session_id);
   if (exists(sql, session_id, row.id))
@@ -81,10 +82,10 @@ std::vector<int> selectKeyframeIds(soci::session& sql, const std::string& sessio
   return { ids.begin(), ids.end() };
 }
 
-KeyframeRow selectKeyframe(soci::session& sql, const SqlDialect& dialect, const std::string& session_id,
-                           int keyframe_id)
+EncodedKeyframe selectKeyframe(soci::session& sql, const SqlDialect& dialect, const std::string& session_id,
+                               int keyframe_id)
 {
-  KeyframeRow row;
+  EncodedKeyframe row;
   row.id = keyframe_id;
   std::string distortion;
   soci::indicator has_mask = soci::i_null;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "object_modelling/keyframes/session_store.h"
-
 namespace object_modelling::keyframes
 {
 namespace
@@ -21,14 +19,6 @@ bool isValidId(const std::string& id)
 {
   return !id.empty() && id.size() <= MAX_ID_LENGTH && id[0] != '.' && id[0] != '-' &&
          std::all_of(id.begin(), id.end(), isIdCharacter);
-}
-
-std::vector<rgbd::Keyframe> loadKeyframes(SessionStore& store, const std::string& session_id)
-{
-  std::vector<rgbd::Keyframe> keyframes;
-  for (const int id : store.keyframeIds(session_id))
-    keyframes.push_back(store.keyframe(session_id, id));
-  return keyframes;
 }
 
 }  // namespace object_modelling::keyframes

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "object_modelling/rgbd/corrected.h"
 #include "session_file.h"
 #include "sql_connection.h"
 #include "store_checks.h"
@@ -68,7 +67,7 @@ public:
   void addKeyframe(const std::string& session_id, const rgbd::Keyframe& keyframe) override
   {
     checkSessionId(session_id);
-    const KeyframeRow row = encodeKeyframe(keyframe);  // outside the transaction: nobody waits for the compression
+    const EncodedKeyframe row = encodeKeyframe(keyframe);  // outside the transaction: nobody waits for the compression
     connection_.write(sessionText(session_id),
                       [&](soci::session& sql) { insertKeyframe(sql, connection_.dialect(), session_id, row); });
   }
@@ -81,10 +80,19 @@ public:
     return ids;
   }
 
+  EncodedKeyframe encodedKeyframe(const std::string& session_id, int keyframe_id) override
+  {
+    checkSessionId(session_id);
+    EncodedKeyframe row;
+    connection_.read(sessionText(session_id), [&](soci::session& sql)
+                     { row = selectKeyframe(sql, connection_.dialect(), session_id, keyframe_id); });
+    return row;
+  }
+
   rgbd::Keyframe keyframe(const std::string& session_id, int keyframe_id) override
   {
     checkSessionId(session_id);
-    KeyframeRow row;
+    EncodedKeyframe row;
     Session session;
     connection_.read(sessionText(session_id),
                      [&](soci::session& sql)
@@ -92,12 +100,7 @@ public:
                        row = selectKeyframe(sql, connection_.dialect(), session_id, keyframe_id);
                        session = selectSession(sql, session_id);
                      });
-    rgbd::Keyframe keyframe =
-        decodeKeyframe(row, "keyframe " + std::to_string(keyframe_id) + " of " + sessionText(session_id));
-    keyframe.frame.noise_model = session.calibration.noise_model;
-    if (!session.calibration.correction.isIdentity())
-      keyframe = rgbd::corrected(keyframe, session.calibration.correction);
-    return keyframe;
+    return decoded(row, session.calibration, session_id);
   }
 
   std::vector<AlignmentRecord> alignments() override

@@ -20,10 +20,10 @@ void updateSessionRow(soci::session& sql, const std::string& session_id, const S
 void deleteSessionRows(soci::session& sql, const std::string& session_id);
 
 void insertKeyframe(soci::session& sql, const SqlDialect& dialect, const std::string& session_id,
-                    const KeyframeRow& row);
+                    const EncodedKeyframe& row);
 std::vector<int> selectKeyframeIds(soci::session& sql, const std::string& session_id);
-KeyframeRow selectKeyframe(soci::session& sql, const SqlDialect& dialect, const std::string& session_id,
-                           int keyframe_id);
+EncodedKeyframe selectKeyframe(soci::session& sql, const SqlDialect& dialect, const std::string& session_id,
+                               int keyframe_id);
 void updatePose(soci::session& sql, const std::string& session_id, const PoseUpdate& update);
 void updateMask(soci::session& sql, const SqlDialect& dialect, const std::string& session_id, const MaskUpdate& update);
 

@@ -5,16 +5,8 @@ namespace object_modelling::pipeline
 std::vector<rgbd::Keyframe> loadReported(keyframes::SessionStore& store, const std::string& session_id,
                                          base::JobControl& control)
 {
-  const std::vector<int> ids = store.keyframeIds(session_id);
-  std::vector<rgbd::Keyframe> keyframes;
-  keyframes.reserve(ids.size());
-  for (const int id : ids)
-  {
-    control.report("load", keyframes.size(), ids.size());
-    keyframes.push_back(store.keyframe(session_id, id));
-  }
-  control.report("load", ids.size(), ids.size());
-  return keyframes;
+  return keyframes::loadKeyframes(store, session_id,
+                                  [&](std::size_t done, std::size_t total) { control.report("load", done, total); });
 }
 
 base::Status noKeyframes(const std::string& session_id)

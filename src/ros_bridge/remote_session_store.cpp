@@ -10,7 +10,7 @@
 #include <object_modelling/DeleteSession.h>
 #include <object_modelling/ExportSession.h>
 #include <object_modelling/GetAlignments.h>
-#include <object_modelling/GetKeyframe.h>
+#include <object_modelling/GetEncodedKeyframe.h>
 #include <object_modelling/GetSession.h>
 #include <object_modelling/ImportSession.h>
 #include <object_modelling/ListSessions.h>
@@ -46,31 +46,48 @@ bool RemoteSessionStore::available() const
 }
 
 template <typename Service>
-void RemoteSessionStore::call(const char* name, Service& service)
+ros::ServiceClient RemoteSessionStore::connected(const std::string& resolved)
+{
+  if (!ros::service::waitForService(resolved, ros::Duration(options_.connect_timeout_s)))
+  {
+    std::ostringstream waited;
+    waited << "service " << resolved << " is not there after " << options_.connect_timeout_s
+           << " s; is the keyframe store running?";
+    throw base::Error(base::StatusCode::TIMEOUT, waited.str());
+  }
+  // A connection of its own: shutting it down from here ends a call that takes too long, which roscpp would otherwise
+  // wait for without limit.
+  return node_.serviceClient<Service>(resolved, true);
+}
+
+template <typename Service>
+bool RemoteSessionStore::answered(const std::string& resolved, ros::ServiceClient client, Service& service) const
+{
+  std::future<bool> done = std::async(std::launch::async, [&client, &service] { return client.call(service); });
+  if (done.wait_for(std::chrono::duration<double>(options_.call_timeout_s)) == std::future_status::ready)
+    return done.get();
+  client.shutdown();
+  if (done.get())
+    return true;
+  std::ostringstream late;
+  late << "service " << resolved << " did not answer within " << options_.call_timeout_s << " s";
+  throw base::Error(base::StatusCode::TIMEOUT, late.str());
+}
+
+template <typename Service>
+void RemoteSessionStore::call(const char* name, Service& service, ros::ServiceClient* kept)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::string resolved = node_.resolveName(options_.node + "/" + name);
-  const auto unreachable = [&](const std::string& what) -> base::Error {
-    return { base::StatusCode::TIMEOUT, "service " + resolved + " " + what };
-  };
-
-  std::ostringstream waited;
-  waited << "is not there after " << options_.connect_timeout_s << " s; is the keyframe store running?";
-  if (!ros::service::waitForService(resolved, ros::Duration(options_.connect_timeout_s)))
-    throw unreachable(waited.str());
-  // A connection of its own for this call: shutting it down from here ends a call that takes too long, which roscpp
-  // would otherwise wait for without limit.
-  ros::ServiceClient client = node_.serviceClient<Service>(resolved, true);
-  std::future<bool> done = std::async(std::launch::async, [&client, &service] { return client.call(service); });
-  const bool in_time =
-      done.wait_for(std::chrono::duration<double>(options_.call_timeout_s)) == std::future_status::ready;
-  if (!in_time)
-    client.shutdown();
-  if (!done.get())
+  // A kept connection may be to a store that has gone: it only reads, so that asking again does no harm.
+  if (!kept || !kept->isValid() || !answered(resolved, *kept, service))
   {
-    std::ostringstream late;
-    late << "did not answer within " << options_.call_timeout_s << " s";
-    throw unreachable(in_time ? "went away during the call; see the log of the keyframe store" : late.str());
+    ros::ServiceClient client = connected<Service>(resolved);
+    if (!answered(resolved, client, service))
+      throw base::Error(base::StatusCode::TIMEOUT,
+                        "service " + resolved + " went away during the call; see the log of the keyframe store");
+    if (kept)
+      *kept = client;
   }
   const base::Status status = fromMessage(service.response.status);
   if (!status.ok())
@@ -134,10 +151,15 @@ std::vector<int> RemoteSessionStore::keyframeIds(const std::string& session_id)
 
 rgbd::Keyframe RemoteSessionStore::keyframe(const std::string& session_id, int keyframe_id)
 {
-  object_modelling::GetKeyframe service;
+  return keyframes::decoded(encodedKeyframe(session_id, keyframe_id), session(session_id).calibration, session_id);
+}
+
+keyframes::EncodedKeyframe RemoteSessionStore::encodedKeyframe(const std::string& session_id, int keyframe_id)
+{
+  object_modelling::GetEncodedKeyframe service;
   service.request.session_id = session_id;
   service.request.keyframe_id = keyframe_id;
-  call(names::GET_KEYFRAME, service);
+  call(names::GET_ENCODED_KEYFRAME, service, &keyframe_client_);
   return fromMessage(service.response.keyframe);
 }
 

@@ -22,6 +22,34 @@ keyframes::StageMark fromMessage(const object_modelling::StageMark& message)
   return { message.by, message.options };
 }
 
+using Rows3x4 = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
+using Rows6x6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+
+object_modelling::KeyframePose toKeyframePose(const keyframes::PoseUpdate& update)
+{
+  object_modelling::KeyframePose message;
+  message.keyframe_id = update.keyframe_id;
+  Eigen::Map<Rows3x4>(message.session_from_camera.data()) = update.T_session_camera.matrix().topRows<3>();
+  Eigen::Map<Rows6x6>(message.covariance.data()) = update.covariance;
+  return message;
+}
+
+keyframes::PoseUpdate fromKeyframePose(const object_modelling::KeyframePose& message)
+{
+  keyframes::PoseUpdate update;
+  update.keyframe_id = message.keyframe_id;
+  update.T_session_camera.matrix().topRows<3>() = Eigen::Map<const Rows3x4>(message.session_from_camera.data());
+  update.covariance = Eigen::Map<const Rows6x6>(message.covariance.data());
+  constexpr double MAX_SHEAR = 1e-6;
+  const Eigen::Matrix3d R = update.T_session_camera.linear();
+  if (!update.T_session_camera.matrix().allFinite() || !(R * R.transpose()).isIdentity(MAX_SHEAR) ||
+      R.determinant() < 0)
+    throw base::Error(
+        base::StatusCode::INVALID_ARGUMENT,
+        "the new pose of keyframe " + std::to_string(message.keyframe_id) + " is no rotation and translation");
+  return update;
+}
+
 std::optional<geometry::Plane> supportPlaneFrom(const object_modelling::Session& message)
 {
   if (!message.has_support_plane)
@@ -87,7 +115,7 @@ object_modelling::SessionChange toMessage(const keyframes::SessionChange& change
 {
   object_modelling::SessionChange message;
   for (const keyframes::PoseUpdate& update : change.poses)
-    message.poses.push_back(toMessage(update));
+    message.poses.push_back(toKeyframePose(update));
   for (const keyframes::MaskUpdate& update : change.masks)
     message.masks.push_back(toMessage(update, std::string()));
   message.set_object_id = change.object_id.has_value();
@@ -117,8 +145,8 @@ keyframes::SessionChange fromMessage(const object_modelling::SessionChange& mess
 {
   const object_modelling::Session& values = message.session;
   keyframes::SessionChange change;
-  for (const object_modelling::PoseUpdate& update : message.poses)
-    change.poses.push_back(fromMessage(update));
+  for (const object_modelling::KeyframePose& pose : message.poses)
+    change.poses.push_back(fromKeyframePose(pose));
   for (const object_modelling::ObjectMask& update : message.masks)
     change.masks.push_back(fromMessage(update));
   if (message.set_object_id)

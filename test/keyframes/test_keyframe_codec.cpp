@@ -15,7 +15,7 @@ using base::StatusCode;
 TEST(KeyframeCodec, GivesBackEverythingAndDepthWithinHalfAUnit)
 {
   const rgbd::Keyframe keyframe = makeKeyframe(3);
-  const KeyframeRow row = encodeKeyframe(keyframe);
+  const EncodedKeyframe row = encodeKeyframe(keyframe);
   EXPECT_EQ(row.depth_unit_m, 1e-4);
   const rgbd::Keyframe decoded = decodeKeyframe(row, "keyframe 3");
   expectSame(decoded, keyframe);
@@ -29,7 +29,7 @@ TEST(KeyframeCodec, TakesTheCoarserUnitForFarDepth)
   EXPECT_EQ(encodeKeyframe(keyframe).depth_unit_m, 1e-4);
   keyframe.frame.depth_m.at<float>(5, 5) = 6.6f;
   keyframe.frame.depth_m.at<float>(6, 6) = 65.4f;
-  const KeyframeRow row = encodeKeyframe(keyframe);
+  const EncodedKeyframe row = encodeKeyframe(keyframe);
   EXPECT_EQ(row.depth_unit_m, 1e-3);
   EXPECT_LE(depthDifference_m(decodeKeyframe(row, "").frame.depth_m, keyframe.frame.depth_m), 0.5e-3 + 1e-5);
 }
@@ -47,7 +47,7 @@ TEST(KeyframeCodec, WorksWithoutMaskAndObservations)
   rgbd::Keyframe keyframe = makeKeyframe(1);
   keyframe.frame.object_mask.release();
   keyframe.observations.clear();
-  const KeyframeRow row = encodeKeyframe(keyframe);
+  const EncodedKeyframe row = encodeKeyframe(keyframe);
   EXPECT_TRUE(row.mask_png.empty());
   EXPECT_EQ(row.observations.size(), 4u);
   expectSame(decodeKeyframe(row, ""), keyframe);
@@ -55,7 +55,7 @@ TEST(KeyframeCodec, WorksWithoutMaskAndObservations)
 
 TEST(KeyframeCodec, SameKeyframeSameBytes)
 {
-  const KeyframeRow a = encodeKeyframe(makeKeyframe(2)), b = encodeKeyframe(makeKeyframe(2));
+  const EncodedKeyframe a = encodeKeyframe(makeKeyframe(2)), b = encodeKeyframe(makeKeyframe(2));
   EXPECT_EQ(a.color_png, b.color_png);
   EXPECT_EQ(a.depth_png, b.depth_png);
   EXPECT_EQ(a.session_from_camera, b.session_from_camera);
@@ -83,24 +83,24 @@ TEST(KeyframeCodec, RefusesWhatCannotBeStored)
 
 TEST(KeyframeCodec, NamesDamagedParts)
 {
-  const auto damaged = [](const std::function<void(KeyframeRow*)>& spoil, const std::string& part)
+  const auto damaged = [](const std::function<void(EncodedKeyframe*)>& spoil, const std::string& part)
   {
-    KeyframeRow row = encodeKeyframe(makeKeyframe(0));
+    EncodedKeyframe row = encodeKeyframe(makeKeyframe(0));
     spoil(&row);
     const base::Status status = statusOf([&] { decodeKeyframe(row, "keyframe 0 of session 'a'"); });
     EXPECT_EQ(status.code, StatusCode::BAD_INPUT) << part;
     EXPECT_NE(status.message.find(part), std::string::npos) << status.message;
     EXPECT_NE(status.message.find("keyframe 0 of session 'a'"), std::string::npos) << status.message;
   };
-  damaged([](KeyframeRow* r) { r->color_png = "not a picture"; }, "colour image");
-  damaged([](KeyframeRow* r) { r->color_png.clear(); }, "colour image");
-  damaged([](KeyframeRow* r) { r->depth_png = r->mask_png; }, "depth image");
-  damaged([](KeyframeRow* r) { r->mask_png = r->color_png; }, "mask");
-  damaged([](KeyframeRow* r) { r->observations.pop_back(); }, "observations");
-  damaged([](KeyframeRow* r) { r->observations = "\xff\xff\xff\xff"; }, "observations");
-  damaged([](KeyframeRow* r) { r->observations.clear(); }, "observations");
-  damaged([](KeyframeRow* r) { r->session_from_camera += " 1"; }, "session_from_camera");
-  damaged([](KeyframeRow* r) { r->covariance.replace(0, 1, "x"); }, "covariance");
+  damaged([](EncodedKeyframe* r) { r->color_png = "not a picture"; }, "colour image");
+  damaged([](EncodedKeyframe* r) { r->color_png.clear(); }, "colour image");
+  damaged([](EncodedKeyframe* r) { r->depth_png = r->mask_png; }, "depth image");
+  damaged([](EncodedKeyframe* r) { r->mask_png = r->color_png; }, "mask");
+  damaged([](EncodedKeyframe* r) { r->observations.pop_back(); }, "observations");
+  damaged([](EncodedKeyframe* r) { r->observations = "\xff\xff\xff\xff"; }, "observations");
+  damaged([](EncodedKeyframe* r) { r->observations.clear(); }, "observations");
+  damaged([](EncodedKeyframe* r) { r->session_from_camera += " 1"; }, "session_from_camera");
+  damaged([](EncodedKeyframe* r) { r->covariance.replace(0, 1, "x"); }, "covariance");
 }
 
 TEST(ObservationCodec, HasTheDocumentedLayout)

@@ -1,11 +1,13 @@
 #include <algorithm>
 
 #include <gtest/gtest.h>
+#include <object_modelling/GetEncodedKeyframe.h>
 #include <object_modelling/ListSessions.h>
 #include <ros/ros.h>
 #include <opencv2/imgproc.hpp>
 
 #include "object_modelling/ros_bridge/remote_session_store.h"
+#include "object_modelling/ros_bridge/session_conversion.h"
 #include "support/temp_dir.h"
 
 namespace object_modelling::ros_bridge
@@ -136,6 +138,32 @@ TEST_F(RemoteSessionStoreTest, ChangesWhatIsSetAndAllOfIt)
   EXPECT_FALSE(store_.session(id_).refined.done());
 }
 
+TEST_F(RemoteSessionStoreTest, PosesKeepTheirLastDigit)
+{
+  for (int id = 0; id < 5; ++id)
+    store_.addKeyframe(id_, keyframeOf(id));
+  std::vector<keyframes::PoseUpdate> poses;
+  for (int id = 0; id < 5; ++id)
+  {
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.linear() = Eigen::AngleAxisd(0.1 + id / 7.0, Eigen::Vector3d(1, id, -0.3).normalized()).toRotationMatrix();
+    T.translation() = Eigen::Vector3d(1.0 / 3, 2.0 / 7, id / 11.0);
+    poses.push_back({ id, T, geometry::Matrix6d::Constant(1.0 / 9) });
+  }
+  store_.update(id_, keyframes::SessionChange::ofPoses(poses));
+  const std::vector<rgbd::Keyframe> loaded = keyframes::loadKeyframes(store_, id_);
+  ASSERT_EQ(loaded.size(), poses.size());
+  for (std::size_t i = 0; i < loaded.size(); ++i)
+  {
+    EXPECT_EQ(loaded[i].id, static_cast<int>(i));
+    EXPECT_EQ(loaded[i].T_session_camera.matrix(), poses[i].T_session_camera.matrix());
+    EXPECT_EQ(loaded[i].covariance, poses[i].covariance);
+  }
+  object_modelling::SessionChange sheared = toMessage(keyframes::SessionChange::ofPoses(poses));
+  sheared.poses[1].session_from_camera[0] += 0.1;
+  EXPECT_EQ(base::StatusCode::INVALID_ARGUMENT, codeOf([&] { fromMessage(sheared); }));
+}
+
 TEST_F(RemoteSessionStoreTest, ErrorsKeepTheirCode)
 {
   keyframes::Session session;
@@ -189,6 +217,37 @@ public:
 private:
   ros::ServiceServer server_;
 };
+
+/// A store of its own with one keyframe of the given id.
+class OtherStore
+{
+public:
+  OtherStore(ros::NodeHandle& node, int keyframe_id)
+      : server_(node.advertiseService(
+            "other_store/get_encoded_keyframe",
+            boost::function<bool(GetEncodedKeyframe::Request&, GetEncodedKeyframe::Response&)>(
+                [keyframe_id](GetEncodedKeyframe::Request&, GetEncodedKeyframe::Response& response)
+                {
+                  response.keyframe.keyframe_id = keyframe_id;
+                  return true;
+                })))
+  {
+  }
+
+private:
+  ros::ServiceServer server_;
+};
+
+TEST_F(RemoteSessionStoreTest, AKeptConnectionOutlivesARestart)
+{
+  RemoteSessionStore remote(node_, { "other_store", 5, 5 });
+  auto other = std::make_unique<OtherStore>(node_, 1);
+  EXPECT_EQ(1, remote.encodedKeyframe("any", 0).id);
+  EXPECT_EQ(1, remote.encodedKeyframe("any", 0).id);
+  other.reset();
+  other = std::make_unique<OtherStore>(node_, 2);
+  EXPECT_EQ(2, remote.encodedKeyframe("any", 0).id);
+}
 
 TEST_F(RemoteSessionStoreTest, ASlowStoreIsATimeout)
 {

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "object_modelling/base/status.h"
 #include "object_modelling/keyframes/alignment_record.h"
+#include "object_modelling/keyframes/encoded_keyframe.h"
 #include "object_modelling/keyframes/session.h"
 #include "object_modelling/keyframes/session_change.h"
 #include "object_modelling/rgbd/keyframe.h"
@@ -34,6 +36,8 @@ public:
   virtual std::vector<int> keyframeIds(const std::string& session_id) = 0;  ///< ascending
   /// Its frame has the noise model of the session, and is corrected by its calibration.
   virtual rgbd::Keyframe keyframe(const std::string& session_id, int keyframe_id) = 0;
+  /// The same for decoded().
+  virtual EncodedKeyframe encodedKeyframe(const std::string& session_id, int keyframe_id) = 0;
 
   /// How sessions lie to each other, as far as that is known; ordered by their ids.
   virtual std::vector<AlignmentRecord> alignments() = 0;
@@ -47,8 +51,10 @@ public:
   virtual std::string importSession(const std::string& path) = 0;
 };
 
-/// All keyframes of a session, ascending.
-std::vector<rgbd::Keyframe> loadKeyframes(SessionStore& store, const std::string& session_id);
+/// All keyframes of a session, ascending; each is decoded while the next one is fetched. `progress` is told how many of
+/// how many have come, and may throw.
+std::vector<rgbd::Keyframe> loadKeyframes(SessionStore& store, const std::string& session_id,
+                                          const std::function<void(std::size_t, std::size_t)>& progress = {});
 
 /// Opens or creates a store, and brings one of an older schema up to date. `connection`: path of a SQLite file (WAL;
 /// its folder is made if missing), or "postgresql://user@host:port/database" or "postgresql://host=... dbname=...".

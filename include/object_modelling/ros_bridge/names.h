@@ -25,6 +25,7 @@ constexpr char SET_SESSION_POSE[] = "set_session_pose";
 constexpr char DELETE_SESSION[] = "delete_session";
 constexpr char ADD_KEYFRAME[] = "add_keyframe";
 constexpr char GET_KEYFRAME[] = "get_keyframe";
+constexpr char GET_ENCODED_KEYFRAME[] = "get_encoded_keyframe";
 constexpr char CHANGE_SESSION[] = "change_session";
 constexpr char UPDATE_POSES[] = "update_poses";
 constexpr char UPDATE_MASKS[] = "update_masks";

@@ -18,8 +18,8 @@ struct RemoteSessionStoreOptions
 };
 
 /// The keyframe_store node as a SessionStore. Errors of the store arrive as the base::Error that it threw; a store that
-/// cannot be reached or does not answer in time is a TIMEOUT that names the service. Each call connects anew, so a
-/// restarted store is found again. Safe for several threads (calls are serialised); needs no spinning of the caller.
+/// cannot be reached or does not answer in time is a TIMEOUT that names the service. A restarted store is
+/// found again. Safe for several threads (calls are serialised); needs no spinning of the caller.
 class RemoteSessionStore : public keyframes::SessionStore
 {
 public:
@@ -37,6 +37,7 @@ public:
   void addKeyframe(const std::string& session_id, const rgbd::Keyframe& keyframe) override;
   std::vector<int> keyframeIds(const std::string& session_id) override;
   rgbd::Keyframe keyframe(const std::string& session_id, int keyframe_id) override;
+  keyframes::EncodedKeyframe encodedKeyframe(const std::string& session_id, int keyframe_id) override;
 
   std::vector<keyframes::AlignmentRecord> alignments() override;
   void updateAlignments(const std::vector<keyframes::AlignmentRecord>& records) override;
@@ -45,13 +46,20 @@ public:
   std::string importSession(const std::string& path) override;
 
 private:
-  /// Throws what the response's status says.
+  /// A new connection to a service that is there, waiting for it.
   template <typename Service>
-  void call(const char* name, Service& service);
+  ros::ServiceClient connected(const std::string& resolved);
+  /// False: the connection is broken.
+  template <typename Service>
+  bool answered(const std::string& resolved, ros::ServiceClient client, Service& service) const;
+  /// Throws what the response's status says. `kept`: a connection for many calls that only read; else one for this.
+  template <typename Service>
+  void call(const char* name, Service& service, ros::ServiceClient* kept = nullptr);
 
   ros::NodeHandle node_;
   RemoteSessionStoreOptions options_;
   std::mutex mutex_;
+  ros::ServiceClient keyframe_client_;  ///< a session has many keyframes
 };
 
 }  // namespace object_modelling::ros_bridge

@@ -31,6 +31,7 @@ StoreServices::StoreServices(ros::NodeHandle& private_node, keyframes::SessionSt
   serve<DeleteSession>(private_node, names::DELETE_SESSION, &StoreServices::deleteSession);
   serve<AddKeyframe>(private_node, names::ADD_KEYFRAME, &StoreServices::addKeyframe);
   serve<GetKeyframe>(private_node, names::GET_KEYFRAME, &StoreServices::getKeyframe);
+  serve<GetEncodedKeyframe>(private_node, names::GET_ENCODED_KEYFRAME, &StoreServices::getEncodedKeyframe);
   serve<UpdatePoses>(private_node, names::UPDATE_POSES, &StoreServices::updatePoses);
   serve<UpdateMasks>(private_node, names::UPDATE_MASKS, &StoreServices::updateMasks);
   serve<GetAlignments>(private_node, names::GET_ALIGNMENTS, &StoreServices::getAlignments);
@@ -93,6 +94,12 @@ void StoreServices::getKeyframe(const GetKeyframe::Request& request, GetKeyframe
   const keyframes::Session session = store_.session(request.session_id);
   response.keyframe = ros_bridge::toMessage(store_.keyframe(request.session_id, request.keyframe_id),
                                             request.session_id, session.camera_frame_id);
+}
+
+void StoreServices::getEncodedKeyframe(const GetEncodedKeyframe::Request& request,
+                                       GetEncodedKeyframe::Response& response)
+{
+  response.keyframe = ros_bridge::toMessage(store_.encodedKeyframe(request.session_id, request.keyframe_id));
 }
 
 void StoreServices::updatePoses(const UpdatePoses::Request& request, UpdatePoses::Response&)

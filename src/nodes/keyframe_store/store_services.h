@@ -8,6 +8,7 @@
 #include <object_modelling/DeleteSession.h>
 #include <object_modelling/ExportSession.h>
 #include <object_modelling/GetAlignments.h>
+#include <object_modelling/GetEncodedKeyframe.h>
 #include <object_modelling/GetKeyframe.h>
 #include <object_modelling/GetSession.h>
 #include <object_modelling/ImportSession.h>
@@ -46,6 +47,7 @@ private:
   void deleteSession(const DeleteSession::Request& request, DeleteSession::Response& response);
   void addKeyframe(const AddKeyframe::Request& request, AddKeyframe::Response& response);
   void getKeyframe(const GetKeyframe::Request& request, GetKeyframe::Response& response);
+  void getEncodedKeyframe(const GetEncodedKeyframe::Request& request, GetEncodedKeyframe::Response& response);
   void updatePoses(const UpdatePoses::Request& request, UpdatePoses::Response& response);
   void updateMasks(const UpdateMasks::Request& request, UpdateMasks::Response& response);
   void getAlignments(const GetAlignments::Request& request, GetAlignments::Response& response);

@@ -80,6 +80,11 @@ rgbd::Keyframe WatchedStore::keyframe(const std::string& session_id, int keyfram
   return opened().keyframe(session_id, keyframe_id);
 }
 
+keyframes::EncodedKeyframe WatchedStore::encodedKeyframe(const std::string& session_id, int keyframe_id)
+{
+  return opened().encodedKeyframe(session_id, keyframe_id);
+}
+
 std::vector<keyframes::AlignmentRecord> WatchedStore::alignments()
 {
   return opened().alignments();

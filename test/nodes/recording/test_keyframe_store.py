@@ -22,12 +22,13 @@ from node_process import NodeProcess
 from synthetic_camera import HEIGHT, SCENE, WIDTH, SyntheticCamera, image_message
 from object_modelling import srv
 from object_modelling.msg import (
-    Keyframe, ObjectMask, PoseUpdate, Session, SessionChange, StageMark, Status, StoreState)
+    Keyframe, KeyframePose, ObjectMask, PoseUpdate, Session, SessionChange, StageMark, Status, StoreState)
 
 SERVICES = {
     "create_session": srv.CreateSession, "list_sessions": srv.ListSessions, "get_session": srv.GetSession,
     "update_session": srv.UpdateSession, "change_session": srv.ChangeSession, "set_session_pose": srv.SetSessionPose, "delete_session": srv.DeleteSession,
-    "add_keyframe": srv.AddKeyframe, "get_keyframe": srv.GetKeyframe, "update_poses": srv.UpdatePoses,
+    "add_keyframe": srv.AddKeyframe, "get_keyframe": srv.GetKeyframe, "get_encoded_keyframe": srv.GetEncodedKeyframe,
+    "update_poses": srv.UpdatePoses,
     "update_masks": srv.UpdateMasks, "export_session": srv.ExportSession, "import_session": srv.ImportSession,
 }
 
@@ -36,6 +37,10 @@ def pose_at(x):
     pose = Pose()
     pose.position.x, pose.orientation.w = x, 1.0
     return pose
+
+
+def exact_pose(keyframe_id, x):
+    return KeyframePose(keyframe_id, [1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0], [0] * 36)
 
 
 def keyframe(session_id, index):
@@ -190,15 +195,14 @@ class KeyframeStoreTest(unittest.TestCase):
         self.succeed(store.set_session_pose("s", False, Pose()))
         self.assertFalse(store.get_session("s").session.has_model_from_session)
 
-        change = SessionChange(poses=[PoseUpdate(0, PoseWithCovariance(pose=pose_at(0.25)))], set_refined=True)
+        change = SessionChange(poses=[exact_pose(0, 0.25)], set_refined=True)
         change.session.refined = StageMark("multi_view_icp", "{}")
         change.session.object_id = "not set, so not written"
         self.succeed(store.change_session("s", change))
         store.wait(lambda: store.path_preview.poses[0].pose.position.x == 0.25)
         session = self.succeed(store.get_session("s")).session
         self.assertEqual((session.object_id, session.refined.by), ("mug", "multi_view_icp"))
-        change.poses.append(PoseUpdate(7, PoseWithCovariance(pose=pose_at(0))))
-        change.poses[0].session_from_camera.pose.position.x = 9
+        change.poses = [exact_pose(0, 9), exact_pose(7, 9)]
         self.assertEqual(store.change_session("s", change).status.code, Status.NOT_FOUND)
         self.assertEqual(self.succeed(store.get_keyframe("s", 0)).keyframe.session_from_camera.pose.position.x, 0.25)
         self.succeed(store.update_poses("s", [PoseUpdate(0, PoseWithCovariance(pose=pose_at(0.5)))]))
