@@ -6,9 +6,7 @@
 #include <sstream>
 
 #include "command.h"
-#include "object_modelling/pipeline/align_sessions.h"
-#include "object_modelling/pipeline/build_object.h"
-#include "object_modelling/pipeline/session_jobs.h"
+#include "object_modelling/pipeline/model_object.h"
 #include "object_modelling/ros_bridge/recording.h"
 #include "remedy_text.h"
 #include "report_text.h"
@@ -31,44 +29,63 @@ struct Arguments
   std::size_t max_triangles = 0;
   bool replace = false;
   bool require_all = false;
+  bool again = false;
   double same_pose_probability = alignment::PairAlignmentOptions().same_pose_probability;
   RecordArguments record;
 };
 
-void throwUnlessOk(const std::string& stage, const base::Status& status)
+/// The stages of this process, whose reports become text and JSON.
+class PrintedStages : public pipeline::LocalStages
 {
-  if (!status.ok())
-    throw base::Error(status.code, stage + ": " + status.message);
-}
+public:
+  PrintedStages(keyframes::SessionStore& store, database::ObjectDatabase& database,
+                const pipeline::LocalStagesOptions& options, CommandOutput* output)
+      : LocalStages(store, database, options), output_(output)
+  {
+  }
 
-/// One recording through tracking, refinement and segmentation; text and JSON are appended to the output.
-std::string processRecording(const std::string& recording, const Arguments& arguments, keyframes::SessionStore& store,
-                             base::JobControl& control, CommandOutput* output)
+  void onRecorded(const pipeline::RecordReport& recorded)
+  {
+    output_->text += "session   " + recorded.session_id + "\n" + toText(recorded);
+    of(recorded.session_id) = toJson(recorded);
+  }
+
+protected:
+  void onRefined(const std::string& session_id, const pipeline::SessionRefinement& refined) override
+  {
+    output_->text += "session   " + session_id + "\n" + toText(refined);
+    of(session_id)["refinement"] = toJson(refined);
+  }
+  void onSegmented(const pipeline::SegmentReport& segmented) override
+  {
+    output_->text += "session   " + segmented.session_id + "\n" + toText(segmented);
+    of(segmented.session_id)["segmentation"] = toJson(segmented);
+  }
+
+private:
+  /// What is told of a session, in the order in which sessions were first told of.
+  nlohmann::json& of(const std::string& session_id)
+  {
+    nlohmann::json& sessions = output_->json["sessions"];
+    const auto [place, is_new] = places_.emplace(session_id, sessions.size());
+    if (is_new)
+      sessions.push_back({ { "session_id", session_id } });
+    return sessions[place->second];
+  }
+
+  CommandOutput* output_;
+  std::map<std::string, std::size_t> places_;
+};
+
+/// One recording becomes a stored session; its id.
+std::string record(const std::string& recording, const Arguments& arguments, keyframes::SessionStore& store,
+                   base::JobControl& control, PrintedStages* stages)
 {
   const std::unique_ptr<source::FrameSource> source = ros_bridge::openRecording(recording);
   keyframes::Session session;
   session.id = sessionIdFrom(recording);
   session.object_id = arguments.object_id;
-  const pipeline::RecordReport recorded =
-      pipeline::recordSession(*source, session, &store, recordOptions(arguments.record), control);
-  output->text += "session   " + session.id + "\n" + toText(recorded);
-  nlohmann::json json = toJson(recorded);
-
-  const pipeline::SessionRefinement refined =
-      pipeline::refineSessionBy(store, session.id, refinementOptions(arguments.record), control);
-  output->text += toText(refined);
-  json["refinement"] = toJson(refined);
-  throwUnlessOk("refinement of session '" + session.id + "'", refined.status);
-
-  std::optional<Eigen::Vector3d> seed_point_session;
-  if (!arguments.seed_point_m.empty())
-    seed_point_session = Eigen::Vector3d(arguments.seed_point_m.data());
-  const pipeline::SegmentReport segmented =
-      pipeline::segmentSession(store, session.id, seed_point_session, {}, control);
-  output->text += toText(segmented);
-  json["segmentation"] = toJson(segmented);
-  throwUnlessOk("segmentation of session '" + session.id + "'", segmented.status);
-  output->json["sessions"].push_back(std::move(json));
+  stages->onRecorded(pipeline::recordSession(*source, session, &store, recordOptions(arguments.record), control));
   return session.id;
 }
 
@@ -112,51 +129,54 @@ void tellLeftOut(const alignment::AlignmentResult& aligned, nlohmann::json* json
           { { "session_a", edge.session_a }, { "session_b", edge.session_b }, { "reason", edge.reason } });
 }
 
-/// Where not all fit though they are required to, the output's status says so.
-alignment::AlignmentResult align(const Arguments& arguments, const std::vector<std::string>& session_ids,
-                                 keyframes::SessionStore& store, base::JobControl& control, CommandOutput* output)
+pipeline::LocalStagesOptions stagesOptions(const Arguments& arguments)
 {
-  pipeline::AlignOptions options;
-  options.pair.same_pose_probability = arguments.same_pose_probability;
-  options.required = arguments.require_all ? pipeline::Required::ALL : pipeline::Required::ONE;
-  alignment::AlignmentResult aligned = pipeline::alignSessions(store, session_ids, options, control);
-  if (aligned.left_out.empty())
-    throwUnlessOk("alignment", aligned.status);
-  else
-    aligned.status.message += "; " + remedyFor(aligned, { arguments.object_id, arguments.store, arguments.database });
+  pipeline::LocalStagesOptions options;
+  options.object_id = arguments.object_id;
+  options.name = arguments.name;
+  options.refinement = refinementOptions(arguments.record);
+  if (!arguments.seed_point_m.empty())
+    options.seed_point_session = Eigen::Vector3d(arguments.seed_point_m.data());
+  options.align.pair.same_pose_probability = arguments.same_pose_probability;
+  options.align.required = arguments.require_all ? pipeline::Required::ALL : pipeline::Required::ONE;
+  options.build.replace = arguments.replace;
+  options.build.fusion.resolution_m = arguments.resolution_mm / 1000;
+  options.build.surface.resolution_m = arguments.resolution_mm / 1000;
+  options.build.surface.watertight = arguments.watertight;
+  options.build.surface.max_triangles = arguments.max_triangles;
+  return options;
+}
+
+/// What became of the sessions. Where not all fit though they are required to, the output's status says so.
+void tell(const pipeline::ModelOutcome& outcome, const Arguments& arguments, CommandOutput* output)
+{
+  const alignment::AlignmentResult& aligned = outcome.aligned;
+  const bool partial = !aligned.left_out.empty();
+  const std::string remedy =
+      partial ? "; " + remedyFor(aligned, { arguments.object_id, arguments.store, arguments.database }) : "";
+  for (const std::string& id : outcome.unchanged)
+    output->text += "session   " + id + "\nas before, refined and segmented\n";
+  output->json["unchanged_sessions"] = outcome.unchanged;
   tellLeftOut(aligned, &output->json);
-  if (session_ids.size() > 1)
+  if (aligned.edges.size() > 0)
   {
     output->text += toText(aligned);
     output->json["alignment"] = toJson(aligned);
   }
-  if (!aligned.status.ok())
+  if (!outcome.built)
   {
-    output->status = { aligned.status.code, "alignment: " + aligned.status.message };
+    output->status = { aligned.status.code, "alignment: " + aligned.status.message + remedy };
     output->json["status"] = toJson(output->status);
+    return;
   }
-  return aligned;
-}
-
-void build(const Arguments& arguments, const alignment::AlignmentResult& aligned, keyframes::SessionStore& store,
-           database::ObjectDatabase& database, base::JobControl& control, CommandOutput* output)
-{
-  pipeline::BuildOptions options;
-  options.replace = arguments.replace;
-  options.fusion.resolution_m = arguments.resolution_mm / 1000;
-  options.surface.resolution_m = arguments.resolution_mm / 1000;
-  options.surface.watertight = arguments.watertight;
-  options.surface.max_triangles = arguments.max_triangles;
-  options.left_out = pipeline::leftOutOf(aligned);
-  const pipeline::BuildReport built =
-      pipeline::buildObject(store, database, arguments.object_id, arguments.name, aligned.placements, options, control);
-  output->text += toText(built);
-  output->json["build"] = toJson(built);
-  base::Status status = built.status;
-  if (!aligned.left_out.empty())
-    status.message += "; " + aligned.status.message;
-  throwUnlessOk("building object '" + arguments.object_id + "'", status);
-  if (!aligned.left_out.empty())
+  output->text += toText(*outcome.built);
+  output->json["build"] = toJson(*outcome.built);
+  base::Status status = outcome.status;
+  if (partial)
+    status.message += "; " + aligned.status.message + remedy;
+  if (!status.ok())
+    throw base::Error(status.code, "building object '" + arguments.object_id + "': " + status.message);
+  if (partial)
     output->warning = status.message;
 }
 
@@ -180,14 +200,11 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
   CommandOutput output;
   output.json["object_id"] = arguments.object_id;
   output.json["sessions"] = nlohmann::json::array();
+  PrintedStages stages(store, database, stagesOptions(arguments), &output);
   std::vector<std::string> session_ids = storedSessions(arguments, store);
   for (const std::string& recording : arguments.recordings)
-    session_ids.push_back(processRecording(recording, arguments, store, control, &output));
-
-  const alignment::AlignmentResult aligned = align(arguments, session_ids, store, control, &output);
-  if (!output.status.ok())
-    return output;
-  build(arguments, aligned, store, database, control, &output);
+    session_ids.push_back(record(recording, arguments, store, control, &stages));
+  tell(pipeline::modelObject(stages, session_ids, arguments.again, control), arguments, &output);
   return output;
 }
 }  // namespace
@@ -229,6 +246,8 @@ void addModelCommand(CLI::App& app, Command* chosen)
   command->add_flag(
       "--require-all", arguments->require_all,
       "Fail where not all sessions fit each other, instead of building a partial object from those that do");
+  command->add_flag("--again", arguments->again,
+                    "Refine and segment anew the sessions of the store that were refined and segmented before");
   command->footer("Example: object_modelling model mustard recordings/mustard_up --database ~/objects");
   command->callback([arguments, chosen]
                     { *chosen = [arguments](base::JobControl& control) { return run(*arguments, control); }; });

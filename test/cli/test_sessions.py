@@ -51,9 +51,25 @@ class SessionsTest(unittest.TestCase):
         self.assertIn("--same-pose-probability", refused.stderr)
         self.assertTrue(self.align("--anew")["edges"][0]["accepted"])
 
+    def test_what_was_not_refined_or_segmented_yet_is_so_first(self):
+        copy = os.path.join(self.folder.name, "unrefined.sqlite")
+        with sqlite3.connect(self.store) as store, sqlite3.connect(copy) as other:
+            store.backup(other)
+            other.execute("UPDATE sessions SET refined_by = '', segmented_by = '' WHERE session_id = 'walk_2'")
+        places = ("--store", copy, "--database", os.path.join(self.folder.name, "other_objects"))
+        answer = run_json("model", "bottle", *places, *SAME_POSE)
+        self.assertEqual([session["session_id"] for session in answer["sessions"]], ["walk_2"])
+        self.assertEqual(answer["sessions"][0]["refinement"]["status"]["code"], 0)
+        self.assertTrue(answer["sessions"][0]["segmentation"]["support_plane_found"])
+        self.assertEqual(answer["unchanged_sessions"], ["walk_1"])
+        with sqlite3.connect(copy) as store:
+            marks = store.execute("SELECT refined_by, segmented_by FROM sessions WHERE session_id = 'walk_2'").fetchone()
+        self.assertEqual(marks, ("both", "automatic"))
+
     def test_builds_from_the_store_alone(self):
         again = run_json("model", "bottle", "--store", self.store, "--database", self.database, *SAME_POSE)
         self.assertEqual(again["sessions"], [])
+        self.assertEqual(again["unchanged_sessions"], ["walk_1", "walk_2"])
         self.assertEqual(len(again["alignment"]["transforms"]), 1)
         refused = run("model", "mug", "--store", self.store, "--database", self.database)
         self.assertNotEqual(refused.returncode, 0)

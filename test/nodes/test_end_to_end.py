@@ -1,13 +1,20 @@
 #!/usr/bin/python3
 """The real recording that ships, from topics to the object database, by the driver that ./demo.sh uses."""
+import contextlib
+import json
 import os
+import shutil
+import sqlite3
+import subprocess
 import sys
+import tempfile
 import unittest
 
+import roslib.packages
 import rospkg
 import rospy
 
-from object_modelling import demo, srv
+from object_modelling import demo, msg, srv
 from object_modelling.outcome import Code
 
 TESTS = os.path.join(rospkg.RosPack().get_path("object_modelling"), "test")
@@ -19,6 +26,24 @@ FRAME_COUNT = 31
 SIZE_M = (0.300, 0.200, 0.070)
 TOLERANCE_RATIO = 0.04
 MANAGER = "/object_modelling/modelling_manager/"
+
+
+def copy_store(source, target):
+    """A SQLite store that another process has open, as it is now."""
+    with contextlib.closing(sqlite3.connect(source)) as store, contextlib.closing(sqlite3.connect(target)) as copy:
+        store.backup(copy)
+
+
+def model_by_command(folder, object_id, *options):
+    """What the command tells of the object that it makes of a copied store and database."""
+    finished = subprocess.run(
+        [roslib.packages.find_node("object_modelling", "object_modelling")[0], "model", object_id,
+         "--store", os.path.join(folder, "store"), "--database", os.path.join(folder, "objects"), "--json", "--quiet",
+         *options],
+        universal_newlines=True, timeout=120, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    if finished.returncode != 0:
+        raise AssertionError("exit code %d: %s" % (finished.returncode, finished.stderr + finished.stdout[-1000:]))
+    return json.loads(finished.stdout)
 
 
 def call(name, service_type, **fields):
@@ -49,12 +74,30 @@ class EndToEndTest(unittest.TestCase):
         self.assertEqual([entry.object_id for entry in objects.objects], ["cereal_box"])
         self.assertEqual(objects.objects[0].session_ids, ["box_1"])
 
+        self.check_that_the_command_makes_the_same(objects)
+
         # After all that, wrong orders are still refused, and nothing needs a restart.
         self.assertEqual(call("stop_session", srv.StopSession).status.code, Code.FAILED_PRECONDITION)
         self.assertEqual(call("start_session", srv.StartSession, session_id="box_1").status.code,
                          Code.FAILED_PRECONDITION)
         self.assertEqual(call("start_session", srv.StartSession, session_id="box_2").status.code, Code.OK)
         self.assertEqual(call("discard_session", srv.DiscardSession).session_id, "box_2")
+
+    def check_that_the_command_makes_the_same(self, objects):
+        """Bit for bit, of the same sessions with the same options: once as they are, once through all stages again."""
+        store = rospy.wait_for_message("/object_modelling/keyframe_store/state", msg.StoreState, 10).store
+        for again in (False, True):
+            with tempfile.TemporaryDirectory() as folder:
+                copy_store(store, os.path.join(folder, "store"))
+                shutil.copytree(objects.database_path, os.path.join(folder, "objects"))
+                built = call("build_object", srv.BuildObject, object_id="cereal_box", again=again, wait=True)
+                self.assertEqual(built.status.code, Code.OK, built.status.message)
+                by_nodes = call("list_objects", srv.ListObjects).objects[0].content_hash
+                answer = model_by_command(folder, "cereal_box", *(["--again"] if again else []))
+                self.assertEqual(answer["unchanged_sessions"], [] if again else ["box_1"])
+                self.assertEqual([session["session_id"] for session in answer["sessions"]], ["box_1"] if again else [])
+                with open(os.path.join(folder, "objects", "manifest.yaml"), encoding="utf-8") as manifest:
+                    self.assertIn(by_nodes, manifest.read(), "again: %s" % again)
 
 
 if __name__ == "__main__":
