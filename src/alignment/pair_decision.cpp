@@ -22,11 +22,14 @@ constexpr double HARDLY_AGAINST = -1;        // what a figure takes off the log 
 constexpr double MAX_LOG_ODDS = 500;         // exponents beyond overflow
 constexpr float OTHER_COLOR = 0.35F;         // difference of colours that are not the same
 constexpr double MAX_PRINT_RATIO = 0.03;     // of the points that may have such
+constexpr double MAX_FSV_RATIO = 0.05;       // of the surface; right poses of the fitted and calibrated objects: 0.03
 constexpr double ASKED_PROBABILITY = 0.1;    // of the same pose: below it no such pose is taken unasked
 
 const std::string REMEDY =
     ": if both sessions are of one object, check their masks and support planes, or record more of what they have in "
     "common";
+
+const std::string IN_EMPTY_SPACE = " of the surface would be where the other session saw that nothing is" + REMEDY;
 
 const std::string NOT_TURNED =
     "the two fit best as if the object had not been turned over in between: turn it over and record again, or, if it "
@@ -60,6 +63,8 @@ std::string whyUnlikely(const PairQuality& quality, const PairAlignmentOptions& 
   const double space = of(Feature::SPACE) + of(Feature::THROUGH);
   const double turn = turnPrior(quality, options.same_pose_probability);
   const double worst = std::min({ space, of(Feature::CONTACT), of(Feature::FIT), color, turn });
+  if (quality.fsv_ratio > MAX_FSV_RATIO)
+    return percent(quality.fsv_ratio) + IN_EMPTY_SPACE;
   if (worst > HARDLY_AGAINST)
     return "the best pose is right with a probability of " + percent(quality.probability) + " only (at least " +
            percent(options.min_probability) +
@@ -73,7 +78,7 @@ std::string whyUnlikely(const PairQuality& quality, const PairAlignmentOptions& 
   if (worst == of(Feature::CONTACT))
     return "the object would be " + millimetres(quality.contact_gap_m) + " off what it stood on" + REMEDY;
   if (worst == space)
-    return percent(quality.fsv_ratio) + " of the surface would be where the other session saw that nothing is" + REMEDY;
+    return percent(quality.fsv_ratio) + IN_EMPTY_SPACE;
   return "surfaces are " + millimetres(quality.rmse_m) + " apart" + REMEDY;
 }
 
@@ -224,7 +229,7 @@ void decide(const Part& a, const Part& b, const PairAlignmentOptions& options, P
   const double any = weighUp(options, &result->candidates);
   const Rival rival = joinEquivalent(a, b, &result->candidates);
   const PairCandidate& best = result->candidates.front();
-  if (best.quality.overlap_ratio < options.min_overlap_ratio)
+  if (best.quality.overlap_ratio < options.min_overlap_ratio || best.quality.fsv_ratio > MAX_FSV_RATIO)
     result->reason = whyUnlikely(best.quality, options);
   else if (best.quality.probability < options.min_probability)
     result->reason = rival.candidate && any >= options.min_probability

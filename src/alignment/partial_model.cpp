@@ -6,19 +6,15 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "invariant_colors.h"
 #include "object_modelling/base/options.h"
-#include "object_modelling/fusion/cloud_fusion.h"
-#include "object_modelling/geometry/point_index.h"
 #include "object_modelling/features/keyframe_features.h"
+#include "object_modelling/fusion/cloud_fusion.h"
 
 namespace object_modelling::alignment
 {
 namespace
 {
-constexpr double SURROUNDINGS_M = 0.02;  // over which brightness is compared: light changes more slowly
-constexpr float CHROMATICITY_SCALE = 3;  // a saturated hue counts like print that is dark on bright
-constexpr float DARK_LEVEL = 12;         // grey levels below which hue is noise
-constexpr float SAME_SIDE_COSINE = 0.8F;
 constexpr int MIN_POINTS = 100;
 
 base::Error nothing(const std::string& session_id, const std::string& what)
@@ -39,36 +35,6 @@ std::vector<int> thinned(const std::vector<Eigen::Vector3f>& points, double spac
       kept.push_back(i);
   }
   return kept;
-}
-
-/// Brightness against the mean of the surroundings on the same side, and two chromaticities: what shading by a light
-/// that stands elsewhere, and another exposure, change little.
-std::vector<Eigen::Vector3f> invariantColors(const fusion::FusedCloud& cloud, const std::vector<int>& kept)
-{
-  std::vector<Eigen::Vector3f> points;
-  for (const int index : kept)
-    points.push_back(cloud.points[index]);
-  const geometry::PointIndex tree(points);
-  std::vector<Eigen::Vector3f> rgb;
-  for (const int index : kept)
-    rgb.emplace_back(cloud.colors[index].cast<float>());
-  std::vector<Eigen::Vector3f> colors(kept.size());
-#pragma omp parallel for schedule(dynamic, 256)
-  for (int i = 0; i < static_cast<int>(kept.size()); ++i)
-  {
-    float sum = 0, count = 0;
-    for (const std::uint32_t near : tree.within(points[i], SURROUNDINGS_M))
-      if (cloud.normals[kept[near]].dot(cloud.normals[kept[i]]) > SAME_SIDE_COSINE)
-      {
-        sum += rgb[near].sum();
-        count += 1;
-      }
-    const float own = rgb[i].sum() + 3 * DARK_LEVEL;
-    colors[i] = { own / (sum / std::max(1.0F, count) + 3 * DARK_LEVEL) - 1,
-                  CHROMATICITY_SCALE * ((rgb[i].x() + DARK_LEVEL) / own - 1.0F / 3),
-                  CHROMATICITY_SCALE * ((rgb[i].y() + DARK_LEVEL) / own - 1.0F / 3) };
-  }
-  return colors;
 }
 
 SpaceView spaceOf(const rgbd::Keyframe& keyframe, const Eigen::Vector3f& centre)
@@ -186,7 +152,7 @@ PartialModel makePartialModel(const keyframes::Session& session, const std::vect
     model.colors_rgb.push_back(fused.cloud.colors[index]);
   }
   if (options.use_color)
-    model.colors = invariantColors(fused.cloud, kept);
+    model.colors = invariantColors(model.points, model.normals, model.colors_rgb);
   else
     model.colors.assign(kept.size(), Eigen::Vector3f::Zero());
   const Eigen::Vector3f centre = model.centre();

@@ -17,7 +17,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 from judge import Judge  # noqa: E402, after the path of the kit
 from logistic import Choice, calibrate, fit, probabilities  # noqa: E402
 from pictures import pictures  # noqa: E402
-from report import failures_table, outcome_table, reliability_table, same_pose  # noqa: E402
+from report import failures_table, outcome_table, reliability_table, same_pose, well_recorded  # noqa: E402
 
 PRIOR_RAD = (0.26, 0.52)  # as in pair_evidence.cpp
 SAME_POSE_PROBABILITY = 1e-9  # in the fit: no such pose is taken unasked, so that it must not bend the weights
@@ -49,8 +49,13 @@ def turn_prior(turn_rad):
 
 
 def choices_of(reports, names, cross_weight):
-    """A choice for every pair that has poses. Together, pairs of two objects weigh `cross_weight` of those of one."""
-    pairs = [p for r in reports for p in r["pairs"] if p["candidates"] and not same_pose(p)]
+    """A choice for every pair that has poses. Together, pairs of two objects weigh `cross_weight` of those of one.
+    What was recorded badly shows another object than the true one, and teaches nothing of poses."""
+    pairs = []
+    for report in reports:
+        sessions = {session["id"]: session for session in report["sessions"]}
+        pairs += [p for p in report["pairs"] if p["candidates"] and not same_pose(p)
+                  and not (p["same_object"] and not well_recorded(p, sessions))]
     same, cross = sum(p["same_object"] for p in pairs), sum(not p["same_object"] for p in pairs)
     choices = []
     for pair in pairs:

@@ -39,6 +39,11 @@ def group_of(pair, sessions, by):
     return str(metadata.get(by, "scanned"))
 
 
+def well_recorded(pair, sessions):
+    """Whether both recordings were tracked well, and show the surface of the true object as closely."""
+    return well_tracked(pair, sessions) and all(sessions[pair[k]]["mesh_distance_mm"] <= WELL_TRACKED_MM for k in "ab")
+
+
 def well_tracked(pair, sessions):
     """Whether both recordings were tracked well enough for any pose of the pair to be right."""
     return all(sessions[pair[k]]["camera_rmse_mm"] <= WELL_TRACKED_MM for k in "ab")
