@@ -45,6 +45,13 @@ nlohmann::json toJson(const pipeline::SessionRefinement& refined)
   if (refined.multi_view_icp)
     json["multi_view_icp"] = toJson(*refined.multi_view_icp);
   json["status"] = toJson(refined.status);
+  json["chosen"] = refined.chosen;
+  json["compared"] = nlohmann::json::array();
+  for (const pipeline::ComparedPoses& poses : refined.compared)
+    json["compared"].push_back({ { "by", poses.by },
+                                 { "depth", poses.score.depth },
+                                 { "gray", poses.score.gray },
+                                 { "pair_count", poses.score.pair_count } });
   return json;
 }
 
@@ -78,7 +85,9 @@ std::string toText(const pipeline::SessionRefinement& refined)
     text += toText(*refined.bundle_adjustment);
   if (refined.multi_view_icp)
     text += toText(*refined.multi_view_icp);
-  return text.empty() ? "refined   " + refined.status.message + "\n" : text;
+  if (!refined.status.message.empty() || text.empty())
+    text += "refined   " + refined.status.message + "\n";
+  return text;
 }
 
 }  // namespace object_modelling::cli

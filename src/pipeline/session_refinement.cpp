@@ -1,11 +1,12 @@
 #include "object_modelling/pipeline/session_refinement.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "object_modelling/base/options.h"
-#include "object_modelling/rgbd/corrected.h"
 #include "object_modelling/segmentation/object_follower.h"
 #include "refinement_report.h"
+#include "refiner.h"
 #include "session_loading.h"
 #include "stage_marks.h"
 
@@ -35,20 +36,6 @@ void addTurntables(std::vector<rgbd::Keyframe>* keyframes)
   }
 }
 
-/// Takes over the outcome of one step; false if it failed.
-template <typename Result>
-bool takeOver(const Result& result, std::vector<rgbd::Keyframe>* keyframes)
-{
-  if (!result.status.ok())
-    return false;
-  for (std::size_t i = 0; i < keyframes->size(); ++i)
-  {
-    (*keyframes)[i].T_session_camera = result.T_session_camera[i];
-    (*keyframes)[i].covariance =
-        i < result.covariance.size() ? result.covariance[i] : geometry::Matrix6d(geometry::Matrix6d::Zero());
-  }
-  return true;
-}
 /// What is written. The report of an earlier bundle adjustment goes with the poses that it was of.
 keyframes::SessionChange changeBy(const SessionRefinement& refined, const std::vector<rgbd::Keyframe>& keyframes,
                                   const keyframes::Session& before, const RefinementOptions& options)
@@ -56,9 +43,9 @@ keyframes::SessionChange changeBy(const SessionRefinement& refined, const std::v
   keyframes::SessionChange change;
   for (const rgbd::Keyframe& keyframe : keyframes)
     change.poses.push_back({ keyframe.id, keyframe.T_session_camera, keyframe.covariance });
-  change.refined = refinementMark(options);
+  change.refined = refinementMark(options, refined);
   change.refinement_report = "";
-  if (!refined.bundle_adjustment || !refined.bundle_adjustment->status.ok())
+  if (refined.chosen != nameOf(RefinementMethod::BUNDLE_ADJUSTMENT) && refined.chosen != nameOf(RefinementMethod::BOTH))
     return change;
   change.refinement_report = refinementReportYaml(*refined.bundle_adjustment);
   change.calibration = before.calibration;
@@ -97,35 +84,12 @@ SessionRefinement refineSessionBy(keyframes::SessionStore& store, const std::str
   }
   if (options.bundle_adjustment.object_only)
     addTurntables(&keyframes);
-  bool moved = false;
-  if (options.method != RefinementMethod::MULTI_VIEW_ICP)
-  {
-    refined.bundle_adjustment = refinement::adjustBundle(keyframes, options.bundle_adjustment, control);
-    moved = takeOver(*refined.bundle_adjustment, &keyframes);
-    if (moved && !refined.bundle_adjustment->sensor.isIdentity())
-      for (rgbd::Keyframe& keyframe : keyframes)
-        keyframe = rgbd::corrected(keyframe, refined.bundle_adjustment->sensor);
-    refined.status = refined.bundle_adjustment->status;
-  }
-  if (options.method != RefinementMethod::BUNDLE_ADJUSTMENT)
-  {
-    if (moved)
-    {
-      options.multi_view_icp.start_error_m = std::min(AFTER_BUNDLE_M, options.multi_view_icp.start_error_m);
-      options.multi_view_icp.color_offset_px = refined.bundle_adjustment->color_offset_px;
-    }
-    refined.multi_view_icp = refinement::refineByMultiViewIcp(keyframes, options.multi_view_icp, control);
-    const bool aligned = takeOver(*refined.multi_view_icp, &keyframes);
-    if (!moved)
-      refined.status = refined.multi_view_icp->status;
-    moved |= aligned;
-  }
-  for (const rgbd::Keyframe& keyframe : keyframes)
-    refined.T_session_camera.push_back(keyframe.T_session_camera);
-  if (!moved)
+  Refiner refiner(options, std::move(keyframes), control);
+  refined = refiner.run();
+  if (!refined.status.ok() && refined.chosen == "live")
     return refined;
   control.checkCancelled();
-  store.update(session_id, changeBy(refined, keyframes, session, options));
+  store.update(session_id, changeBy(refined, refiner.keyframes(), session, options));
   return refined;
 }
 

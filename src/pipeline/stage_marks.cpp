@@ -47,16 +47,27 @@ void add(YAML::Emitter* out, const refinement::MultiViewIcpOptions& options)
 }
 }  // namespace
 
-keyframes::StageMark refinementMark(const RefinementOptions& options)
+keyframes::StageMark refinementMark(const RefinementOptions& options, const SessionRefinement& refined)
 {
   YAML::Emitter out;
   out << YAML::BeginMap;
+  out << YAML::Key << "method" << YAML::Value << nameOf(options.method);
+  out << YAML::Key << "compared" << YAML::Value << YAML::BeginSeq;
+  for (const ComparedPoses& poses : refined.compared)
+  {
+    out << YAML::Flow << YAML::BeginMap;
+    out << YAML::Key << "by" << YAML::Value << poses.by;
+    add(&out, "depth", poses.score.depth);
+    add(&out, "gray", poses.score.gray);
+    out << YAML::EndMap;
+  }
+  out << YAML::EndSeq;
   if (options.method != RefinementMethod::MULTI_VIEW_ICP)
     add(&out, options.bundle_adjustment);
   if (options.method != RefinementMethod::BUNDLE_ADJUSTMENT)
     add(&out, options.multi_view_icp);
   out << YAML::EndMap;
-  return { nameOf(options.method), out.c_str() };
+  return { refined.chosen, out.c_str() };
 }
 
 keyframes::StageMark segmentationMark(const std::optional<Eigen::Vector3d>& seed_point_session,

@@ -7,8 +7,8 @@
 
 namespace object_modelling::pipeline
 {
-/// What a session says of its refinement: the method, and the options that change its result.
-keyframes::StageMark refinementMark(const RefinementOptions& options);
+/// What a session says of its refinement: whose poses were taken, what was compared, and the options.
+keyframes::StageMark refinementMark(const RefinementOptions& options, const SessionRefinement& refined);
 
 /// What a session says of its segmentation: whether a person named the object, and where.
 keyframes::StageMark segmentationMark(const std::optional<Eigen::Vector3d>& seed_point_session,

@@ -43,10 +43,10 @@ protected:
     const auto index = std::lround((stamp_s - recording_.frames[0].stamp_s) * 30);
     return recording_.T_object_cameras[0].inverse() * recording_.T_object_cameras.at(index);
   }
-  double worstPosition_m()
+  double worstPosition_m(const std::string& session_id = WALK)
   {
     double worst_m = 0;
-    for (const rgbd::Keyframe& keyframe : keyframes::loadKeyframes(*store_, WALK))
+    for (const rgbd::Keyframe& keyframe : keyframes::loadKeyframes(*store_, session_id))
       worst_m = std::max(worst_m, (keyframe.T_session_camera.translation() -
                                    trueT_session_camera(keyframe.frame.stamp_s).translation())
                                       .norm());
@@ -291,6 +291,33 @@ TEST_F(SessionJobs, RefineByTheMethodAskedFor)
   }
   EXPECT_EQ(statusOf([] { refinementMethodFrom("by hand"); }).code, StatusCode::INVALID_ARGUMENT);
   EXPECT_EQ(refinementMethodFrom("both"), RefinementMethod::BOTH);
+}
+
+TEST_F(SessionJobs, RefineWritesNothingWorseThanWhatWasThere)
+{
+  // Landmarks that agree with each other and not with the surfaces, as if each image were shifted more than the last.
+  store_->createSession(named("misled"));
+  for (rgbd::Keyframe keyframe : keyframes::loadKeyframes(*store_, WALK))
+  {
+    for (rgbd::Observation& observation : keyframe.observations)
+      observation.pixel.x() += 5.0F * static_cast<float>(keyframe.id);
+    store_->addKeyframe("misled", keyframe);
+  }
+  const double live_m = worstPosition_m("misled");
+  RefinementOptions options;
+  options.bundle_adjustment.link_keyframes = false;
+  const SessionRefinement refined = refineSessionBy(*store_, "misled", options, control_);
+  ASSERT_TRUE(refined.status.ok()) << refined.status.message;
+  EXPECT_LT(worstPosition_m("misled"), 1.05 * live_m + 0.0005);
+  ASSERT_EQ(refined.compared.size(), 4u);
+  EXPECT_EQ(refined.compared.front().by, "live");
+  EXPECT_GT(refined.compared[1].score.depth, 1.1 * refined.compared[0].score.depth) << "surfaces driven apart";
+  EXPECT_TRUE(refined.chosen == "live" || refined.chosen == "multi_view_icp") << refined.chosen;
+  EXPECT_NE(refined.status.message.find("kept the poses"), std::string::npos) << refined.status.message;
+  const keyframes::Session session = store_->session("misled");
+  EXPECT_EQ(session.refined.by, refined.chosen);
+  EXPECT_NE(session.refined.options.find("compared:"), std::string::npos);
+  EXPECT_EQ(session.refinement_report, "") << "of poses that were not taken";
 }
 
 TEST_F(SessionJobs, SurfacesRefineWhatNoLandmarksLink)

@@ -7,6 +7,7 @@
 #include "object_modelling/keyframes/session_store.h"
 #include "object_modelling/refinement/bundle_adjustment.h"
 #include "object_modelling/refinement/multi_view_icp.h"
+#include "object_modelling/refinement/pose_comparison.h"
 
 namespace object_modelling::pipeline
 {
@@ -28,18 +29,30 @@ struct RefinementOptions
 /// How far surfaces are off, at most, where bundle adjustment has converged.
 constexpr double AFTER_BUNDLE_M = 0.005;
 
+/// Poses that were to choose from, and how they fit measurements that no step was fitted to.
+struct ComparedPoses
+{
+  std::string by;  ///< "live" (as they came), or the name of a method
+  refinement::PoseScore score;
+};
+
 struct SessionRefinement
 {
-  /// OK if one of the steps succeeded. One that fails leaves the poses to the other; both tell their own status.
+  /// OK if one of the steps succeeded. One that fails leaves the poses to the other; both tell their own status. The
+  /// message says why other poses than those of the method that was asked for were taken.
   base::Status status;
-  std::vector<Eigen::Isometry3d> T_session_camera;  ///< after the last step that succeeded
+  std::vector<Eigen::Isometry3d> T_session_camera;  ///< those that fit best
+  std::string chosen = "live";                      ///< which of those compared they are
+  std::vector<ComparedPoses> compared;              ///< empty where frames were corrected on the way
   std::optional<refinement::BundleAdjustmentResult> bundle_adjustment;
   std::optional<refinement::MultiViewIcpResult> multi_view_icp;
 };
 
-/// Refines the keyframe poses of one stored session and writes them back in one step if that succeeded. Sessions that
-/// were tracked on their object are refined by it alone. Throws base::Error for store errors, base::Cancelled; the
-/// store then stays as it was.
+/// Refines the keyframe poses of one stored session and writes them back in one step if that succeeded; never poses
+/// that fit worse than those that were there, nor those of two methods where one alone fits better: comparePoses()
+/// decides. Where bundle adjustment drives surfaces apart (colour that is not registered to depth), surfaces alone are
+/// tried from the poses that came. Sessions that were tracked on their object are refined by it alone. Throws
+/// base::Error for store errors, base::Cancelled; the store then stays as it was.
 SessionRefinement refineSessionBy(keyframes::SessionStore& store, const std::string& session_id,
                                   RefinementOptions options, base::JobControl& control);
 

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "object_modelling/pipeline/session_refinement.h"
+
+namespace object_modelling::pipeline
+{
+/// The steps of refinement on the keyframes of one session, and the choice among what they make.
+class Refiner
+{
+public:
+  /// Options with what the session says: object_only, the colour offset. `control` must outlive this.
+  Refiner(RefinementOptions options, std::vector<rgbd::Keyframe> keyframes, base::JobControl& control);
+
+  SessionRefinement run();
+  /// With the poses that were chosen.
+  const std::vector<rgbd::Keyframe>& keyframes() const { return keyframes_; }
+
+private:
+  /// Poses that the session may get.
+  struct Candidate
+  {
+    std::string by;
+    refinement::PoseSet poses;
+    std::vector<geometry::Matrix6d> covariance;
+  };
+  template <typename Result>
+  static Candidate candidateOf(const std::string& by, const Result& result, const Eigen::Vector2d& color_offset_px);
+
+  void adjustBundle();
+  void alignSurfaces();
+  void alignSurfacesAlone();
+  /// Whether frames were corrected on the way: poses from before are not of the same frames any more.
+  bool corrected() const;
+  bool objectOnly() const { return options_.bundle_adjustment.object_only || options_.multi_view_icp.object_only; }
+  /// Whether depths agree less after bundle adjustment than before.
+  bool drivesSurfacesApart() const;
+  void choose();
+  std::vector<refinement::PoseScore> scores() const;
+  void place(const Candidate& candidate);
+
+  RefinementOptions options_;
+  std::vector<rgbd::Keyframe> keyframes_;
+  base::JobControl& control_;
+  SessionRefinement refined_;
+  std::vector<Candidate> candidates_;  ///< that came, and of each step that succeeded; what was asked for last
+  std::optional<refinement::MultiViewIcpResult> alone_;
+};
+
+}  // namespace object_modelling::pipeline
