@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "support/temp_dir.h"
+#include "support/violations.h"
 #include "synthetic_wall.h"
 
 namespace object_modelling::calibration
@@ -189,7 +190,7 @@ TEST(NoiseCalibration, RefusesBadOptions)
   NoiseCalibrationOptions options;
   options.min_wall_ratio = 0;
   options.min_frames = 0;
-  EXPECT_EQ(options.violations().size(), 2u);
+  EXPECT_EQ(test_support::namesOf(options.violations()), (std::vector<std::string>{ "min_frames", "min_wall_ratio" }));
   EXPECT_THROW(calibrateNoise(source, {}, options, control), base::Error);
 }
 

@@ -6,6 +6,7 @@
 
 #include "shapes.h"
 #include "support/transform_matchers.h"
+#include "support/violations.h"
 
 namespace object_modelling::evaluation
 {
@@ -123,7 +124,7 @@ TEST(RegistrationTest, CanBeCancelledAndChecksItsOptions)
   RegistrationOptions options;
   options.overlap_ratio = 0;
   options.start_count = 0;
-  EXPECT_EQ(options.violations().size(), 2u);
+  EXPECT_EQ(test_support::namesOf(options.violations()), (std::vector<std::string>{ "overlap_ratio", "start_count" }));
   EXPECT_THROW(registered(points, surface, std::nullopt, options), base::Error);
 }
 

@@ -10,6 +10,7 @@
 
 #include "support/handheld_trajectory.h"
 #include "support/synthetic_scene.h"
+#include "support/violations.h"
 
 namespace object_modelling::fusion
 {
@@ -371,7 +372,8 @@ TEST(CloudFusion, RefusesOptionsOutOfBounds)
   options.resolution_m = 0;
   options.averaging_radius_m = std::numeric_limits<double>::quiet_NaN();
   options.min_views = 0;
-  EXPECT_EQ(options.violations().size(), 3u);
+  EXPECT_EQ(test_support::namesOf(options.violations()),
+            (std::vector<std::string>{ "averaging_radius_m", "min_views", "resolution_m" }));
   EXPECT_THROW(fused({}, options), base::Error);
 }
 

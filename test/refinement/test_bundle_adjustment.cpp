@@ -8,6 +8,7 @@
 #include "object_modelling/rgbd/sensor_noise_model.h"
 #include "pose_errors.h"
 #include "support/synthetic_bundle.h"
+#include "support/violations.h"
 
 namespace object_modelling::refinement
 {
@@ -338,7 +339,7 @@ TEST(BundleAdjustment, refusesBadInput)
   BundleAdjustmentOptions options = withoutLinks();
   options.pixel_sigma_px = 0;
   options.threads = 0;
-  EXPECT_EQ(options.violations().size(), 2u);
+  EXPECT_EQ(test_support::namesOf(options.violations()), (std::vector<std::string>{ "pixel_sigma_px", "threads" }));
   EXPECT_THROW(adjust({}, options), base::Error);
   std::vector<rgbd::Keyframe> keyframes = observedLandmarks();
   keyframes[3].T_session_camera.translation().x() = std::numeric_limits<double>::quiet_NaN();

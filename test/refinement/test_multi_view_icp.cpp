@@ -8,6 +8,7 @@
 #include "icp_scene.h"
 #include "pose_errors.h"
 #include "support/transform_matchers.h"
+#include "support/violations.h"
 
 namespace object_modelling::refinement
 {
@@ -294,7 +295,7 @@ TEST_F(MultiViewIcp, RefusesBadOptions)
 {
   options_.threads = 0;
   options_.start_error_m = -1;
-  EXPECT_EQ(options_.violations().size(), 2U);
+  EXPECT_EQ(test_support::namesOf(options_.violations()), (std::vector<std::string>{ "start_error_m", "threads" }));
   EXPECT_THROW(refine(truth_), base::Error);
 }
 

@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "support/synthetic_scene.h"
+#include "support/violations.h"
 
 namespace object_modelling::rgbd
 {
@@ -198,7 +199,8 @@ TEST(FrameBuilder, RefusesBadOptions)
   FrameBuilderOptions options;
   options.max_depth_m = options.min_depth_m;
   options.min_depth_ratio = 2;
-  EXPECT_EQ(options.violations().size(), 2u);
+  EXPECT_EQ(test_support::namesOf(options.violations()),
+            (std::vector<std::string>{ "max_depth_m", "min_depth_ratio" }));
   EXPECT_THROW(FrameBuilder{ options }, base::Error);
 }
 

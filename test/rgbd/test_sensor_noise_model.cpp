@@ -11,6 +11,7 @@
 #include "object_modelling/rgbd/observation_weight.h"
 #include "support/handheld_trajectory.h"
 #include "support/synthetic_scene.h"
+#include "support/violations.h"
 
 namespace object_modelling::rgbd
 {
@@ -87,7 +88,9 @@ TEST(NoiseModel, NamesEveryBrokenBound)
   model.lateral_constant_px = -1;
   model.depth_bias_linear_ratio = 3;
   model.depth_distortion_ratio[3] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(model.violations().size(), 4u);
+  EXPECT_EQ(test_support::namesOf(model.violations()),
+            (std::vector<std::string>{ "axial_constant_m", "depth_bias_linear_ratio", "depth_distortion_ratio[3]",
+                                       "lateral_constant_px" }));
 }
 
 TEST(NguyenWeight, IsTheInverseVariance)
@@ -209,7 +212,8 @@ TEST(ObservationWeights, RefusesBadOptions)
   ObservationWeightOptions options;
   options.sigma_lateral_m = 0;
   options.theta_max_rad = M_PI;
-  EXPECT_EQ(options.violations().size(), 2u);
+  EXPECT_EQ(test_support::namesOf(options.violations()),
+            (std::vector<std::string>{ "sigma_lateral_m", "theta_max_rad" }));
   EXPECT_THROW(observationWeights(frame, cv::Mat::zeros(1, 1, CV_32FC3), frame.depth_m, options), base::Error);
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "scene_fixtures.h"
+#include "support/violations.h"
 
 namespace object_modelling::segmentation
 {
@@ -111,7 +112,8 @@ TEST(ObjectMaskPropagator, NamesBrokenOptionsOfTheSegmenterToo)
   ObjectMaskPropagatorOptions options;
   options.voxel_size_m = 0;
   options.segmenter.min_cluster_px = 0;
-  EXPECT_EQ(options.violations().size(), 2U);
+  EXPECT_EQ(test_support::namesOf(options.violations()),
+            (std::vector<std::string>{ "min_cluster_px", "voxel_size_m" }));
   EXPECT_THROW(ObjectMaskPropagator{ options }, base::Error);
 }
 

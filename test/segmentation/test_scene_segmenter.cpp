@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "scene_fixtures.h"
+#include "support/violations.h"
 
 namespace object_modelling::segmentation
 {
@@ -161,7 +162,8 @@ TEST(SceneSegmenter, NamesEveryBrokenOption)
   options.plane_angle_rad = -1;
   options.max_height_m = 0;
   options.min_cluster_px = 0;
-  EXPECT_EQ(options.violations().size(), 3U);
+  EXPECT_EQ(test_support::namesOf(options.violations()),
+            (std::vector<std::string>{ "max_height_m", "min_cluster_px", "plane_angle_rad" }));
   EXPECT_THROW(SceneSegmenter{ options }, base::Error);
 }
 

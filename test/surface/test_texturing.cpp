@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "object_modelling/surface/textured_renderer.h"
+#include "support/violations.h"
 #include "texture_scene.h"
 
 namespace object_modelling::surface
@@ -199,7 +200,7 @@ TEST(Texturing, SaysWhyThereIsNone)
   TextureOptions options;
   options.texel_size_m = 0;
   options.padding_px = 0;
-  EXPECT_EQ(options.violations().size(), 2u);
+  EXPECT_EQ(test_support::namesOf(options.violations()), (std::vector<std::string>{ "padding_px", "texel_size_m" }));
   EXPECT_TRUE(TextureOptions().violations().empty());
 }
 

@@ -6,6 +6,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "object_modelling/base/status.h"
+#include "support/violations.h"
 #include "tracking_scene.h"
 
 namespace object_modelling::tracking
@@ -276,7 +277,8 @@ TEST(CameraTracker, ChecksItsOptions)
   CameraTrackerOptions options;
   options.min_inliers = 0;
   options.min_inlier_ratio = 2;
-  EXPECT_EQ(options.violations().size(), 2u);
+  EXPECT_EQ(test_support::namesOf(options.violations()),
+            (std::vector<std::string>{ "min_inlier_ratio", "min_inliers" }));
   EXPECT_THROW(CameraTracker{ options }, base::Error);
 }
 }  // namespace object_modelling::tracking
