@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "object_modelling/base/statistics.h"
 #include "object_modelling/geometry/point_index.h"
 
 namespace object_modelling::alignment
@@ -30,23 +31,6 @@ Harmonics harmonicsOf(const Eigen::Vector3f& normal)
   Harmonics result;
   result << 1, x, y, z, x * y, y * z, x * z, x * x - y * y, 3 * z * z - 1;
   return result;
-}
-
-double median(std::vector<double> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// Robust deviation of what a fit left.
-double scatterOf(const std::vector<double>& left)
-{
-  const double middle = median(left);
-  std::vector<double> off;
-  for (const double value : left)
-    off.push_back(std::abs(value - middle));
-  return std::max(MIN_SCATTER, 1.4826 * median(std::move(off)));
 }
 
 Eigen::Vector2f opponentColors(const Eigen::Vector3f& rgb)
@@ -80,7 +64,7 @@ std::vector<float> shadingOf(const std::vector<float>& values, const std::vector
     light = A.ldlt().solve(b);
     for (std::size_t i = 0; i < values.size(); ++i)
       left[i] = values[i] - light.dot(harmonicsOf(normals[i]));
-    const double scatter = scatterOf(left);
+    const double scatter = std::max(MIN_SCATTER, base::robustDeviation(left));
     for (std::size_t i = 0; i < values.size(); ++i)
       weights[i] = std::pow(1 + std::pow(left[i] / (2 * scatter), 2), -2);
   }

@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "object_modelling/base/statistics.h"
 #include "object_modelling/geometry/point_index.h"
 #include "support_contact.h"
 
@@ -67,11 +68,7 @@ double roughnessOf(const PartialModel& model, const geometry::PointIndex& tree, 
     if (count > 3)
       distances_m.push_back(std::abs(model.normals[i].dot(sum / count - model.points[i])));
   }
-  if (distances_m.empty())
-    return 0;
-  const auto middle = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
-  std::nth_element(distances_m.begin(), middle, distances_m.end());
-  return *middle;
+  return base::median(&distances_m);
 }
 
 /// Least-squares slopes of the colours in the tangent plane (Park, Zhou, Koltun: Colored Point Cloud Registration

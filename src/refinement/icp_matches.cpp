@@ -1,5 +1,7 @@
 #include "icp_matches.h"
 
+#include "object_modelling/base/statistics.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -135,13 +137,6 @@ void matchRims(const IcpView& a, const IcpView& b, const Eigen::Isometry3f& T_a_
   }
 }
 
-float median(std::vector<float>* values)
-{
-  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
-  std::nth_element(values->begin(), middle, values->end());
-  return *middle;
-}
-
 void matchColors(const IcpView& a, const IcpView& b, const Eigen::Isometry3f& T_a_b, const IcpStage& stage,
                  IcpMatches* matches)
 {
@@ -192,7 +187,7 @@ void matchColors(const IcpView& a, const IcpView& b, const Eigen::Isometry3f& T_
     expected = mean_a + gain * (expected - mean_b);
     sizes[i] = std::abs(seen[i] - expected);
   }
-  matches->color_sigma = std::max(MIN_COLOR_SIGMA, 1.4826F * median(&sizes));
+  matches->color_sigma = std::max(MIN_COLOR_SIGMA, 1.4826F * base::median(&sizes));
 }
 }  // namespace
 

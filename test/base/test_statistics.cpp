@@ -1,0 +1,22 @@
+#include "object_modelling/base/statistics.h"
+
+#include <gtest/gtest.h>
+
+namespace object_modelling::base
+{
+TEST(Median, IsTheMiddleWhateverTheOrder)
+{
+  std::vector<double> odd = { 5, 1, 3 }, even = { 4, 1, 2, 9 }, one = { 7 }, none;
+  EXPECT_EQ(median(&odd), 3);
+  EXPECT_EQ(median(&even), 4);
+  EXPECT_EQ(median(&one), 7);
+  EXPECT_EQ(median(&none), 0);
+}
+
+TEST(RobustDeviation, IsNotMovedByAnOutlier)
+{
+  EXPECT_NEAR(robustDeviation<double>({ -1, 1, -1, 1, 0, 1000, -1000 }), 1.4826, 1e-9);
+  EXPECT_EQ(robustDeviation<float>({}), 0);
+  EXPECT_EQ(robustDeviation<float>({ 4, 4, 4 }), 0);
+}
+}  // namespace object_modelling::base
