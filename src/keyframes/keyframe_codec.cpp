@@ -146,13 +146,13 @@ rgbd::Keyframe decodeKeyframe(const EncodedKeyframe& row, const std::string& wha
   return keyframe;
 }
 
-rgbd::Keyframe decoded(const EncodedKeyframe& encoded, const rgbd::SensorCalibration& calibration,
-                       const std::string& session_id)
+rgbd::Keyframe decoded(const EncodedKeyframe& encoded, const std::string& session_id)
 {
   rgbd::Keyframe keyframe =
       decodeKeyframe(encoded, "keyframe " + std::to_string(encoded.id) + " of session '" + session_id + "'");
-  keyframe.frame.noise_model = calibration.noise_model;
-  return calibration.correction.isIdentity() ? keyframe : rgbd::corrected(keyframe, calibration.correction);
+  keyframe.frame.noise_model = encoded.calibration.noise_model;
+  return encoded.calibration.correction.isIdentity() ? keyframe
+                                                     : rgbd::corrected(keyframe, encoded.calibration.correction);
 }
 
 }  // namespace object_modelling::keyframes

@@ -7,7 +7,6 @@ namespace object_modelling::keyframes
 std::vector<rgbd::Keyframe> loadKeyframes(SessionStore& store, const std::string& session_id,
                                           const std::function<void(std::size_t, std::size_t)>& progress)
 {
-  const rgbd::SensorCalibration calibration = store.session(session_id).calibration;
   const std::vector<int> ids = store.keyframeIds(session_id);
   std::vector<rgbd::Keyframe> keyframes;
   keyframes.reserve(ids.size());
@@ -19,8 +18,7 @@ std::vector<rgbd::Keyframe> loadKeyframes(SessionStore& store, const std::string
     auto encoded = std::make_shared<const EncodedKeyframe>(store.encodedKeyframe(session_id, ids[i]));
     if (last.valid())
       keyframes.push_back(last.get());
-    last = std::async(std::launch::async,
-                      [encoded, &calibration, &session_id] { return decoded(*encoded, calibration, session_id); });
+    last = std::async(std::launch::async, [encoded, &session_id] { return decoded(*encoded, session_id); });
   }
   if (last.valid())
     keyframes.push_back(last.get());

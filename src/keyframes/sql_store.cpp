@@ -84,23 +84,13 @@ public:
   {
     checkSessionId(session_id);
     EncodedKeyframe row;
-    connection_.read(sessionText(session_id), [&](soci::session& sql)
-                     { row = selectKeyframe(sql, connection_.dialect(), session_id, keyframe_id); });
-    return row;
-  }
-
-  rgbd::Keyframe keyframe(const std::string& session_id, int keyframe_id) override
-  {
-    checkSessionId(session_id);
-    EncodedKeyframe row;
-    Session session;
     connection_.read(sessionText(session_id),
                      [&](soci::session& sql)
                      {
                        row = selectKeyframe(sql, connection_.dialect(), session_id, keyframe_id);
-                       session = selectSession(sql, session_id);
+                       row.calibration = selectSession(sql, session_id).calibration;
                      });
-    return decoded(row, session.calibration, session_id);
+    return row;
   }
 
   std::vector<AlignmentRecord> alignments() override

@@ -1,4 +1,5 @@
 #include "object_modelling/ros_bridge/keyframe_conversion.h"
+#include "object_modelling/ros_bridge/noise_model_conversion.h"
 
 namespace object_modelling::ros_bridge
 {
@@ -21,6 +22,7 @@ object_modelling::EncodedKeyframe toMessage(const keyframes::EncodedKeyframe& ke
   message.depth_unit_m = keyframe.depth_unit_m;
   message.observations.assign(keyframe.observations.begin(), keyframe.observations.end());
   message.mask_png.assign(keyframe.mask_png.begin(), keyframe.mask_png.end());
+  message.calibration = toMessage(keyframe.calibration);
   return message;
 }
 
@@ -43,6 +45,7 @@ keyframes::EncodedKeyframe fromMessage(const object_modelling::EncodedKeyframe& 
   keyframe.depth_unit_m = message.depth_unit_m;
   keyframe.observations.assign(message.observations.begin(), message.observations.end());
   keyframe.mask_png.assign(message.mask_png.begin(), message.mask_png.end());
+  keyframe.calibration = fromMessage(message.calibration);
   return keyframe;
 }
 

@@ -149,11 +149,6 @@ std::vector<int> RemoteSessionStore::keyframeIds(const std::string& session_id)
   return { service.response.keyframe_ids.begin(), service.response.keyframe_ids.end() };
 }
 
-rgbd::Keyframe RemoteSessionStore::keyframe(const std::string& session_id, int keyframe_id)
-{
-  return keyframes::decoded(encodedKeyframe(session_id, keyframe_id), session(session_id).calibration, session_id);
-}
-
 keyframes::EncodedKeyframe RemoteSessionStore::encodedKeyframe(const std::string& session_id, int keyframe_id)
 {
   object_modelling::GetEncodedKeyframe service;

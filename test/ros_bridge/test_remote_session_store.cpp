@@ -6,6 +6,7 @@
 #include <ros/ros.h>
 #include <opencv2/imgproc.hpp>
 
+#include "object_modelling/ros_bridge/noise_model_conversion.h"
 #include "object_modelling/ros_bridge/remote_session_store.h"
 #include "object_modelling/ros_bridge/session_conversion.h"
 #include "support/temp_dir.h"
@@ -229,6 +230,7 @@ public:
                 [keyframe_id](GetEncodedKeyframe::Request&, GetEncodedKeyframe::Response& response)
                 {
                   response.keyframe.keyframe_id = keyframe_id;
+                  response.keyframe.calibration = toMessage(rgbd::SensorCalibration());
                   return true;
                 })))
   {

@@ -18,11 +18,12 @@ struct EncodedKeyframe
   double depth_unit_m = 0;
   std::string observations;
   std::string mask_png;  ///< empty: no mask
+  /// Of its session, as it was when the pose was read: one without the other is of no use.
+  rgbd::SensorCalibration calibration;
 };
 
-/// The keyframe, with the noise model of its session, corrected by its calibration. Throws base::Error (BAD_INPUT)
+/// The keyframe, with the noise model of its session, corrected by the calibration. Throws base::Error (BAD_INPUT)
 /// naming session, keyframe and the damaged part.
-rgbd::Keyframe decoded(const EncodedKeyframe& encoded, const rgbd::SensorCalibration& calibration,
-                       const std::string& session_id);
+rgbd::Keyframe decoded(const EncodedKeyframe& encoded, const std::string& session_id);
 
 }  // namespace object_modelling::keyframes

@@ -34,10 +34,13 @@ public:
   /// 0.1 mm (1 mm if any reading is beyond 6.5 m; beyond 65.5 m counts as missing), everything else exactly.
   virtual void addKeyframe(const std::string& session_id, const rgbd::Keyframe& keyframe) = 0;
   virtual std::vector<int> keyframeIds(const std::string& session_id) = 0;  ///< ascending
-  /// Its frame has the noise model of the session, and is corrected by its calibration.
-  virtual rgbd::Keyframe keyframe(const std::string& session_id, int keyframe_id) = 0;
-  /// The same for decoded().
+  /// Pose and calibration are of one time.
   virtual EncodedKeyframe encodedKeyframe(const std::string& session_id, int keyframe_id) = 0;
+  /// The same, decoded().
+  rgbd::Keyframe keyframe(const std::string& session_id, int keyframe_id)
+  {
+    return decoded(encodedKeyframe(session_id, keyframe_id), session_id);
+  }
 
   /// How sessions lie to each other, as far as that is known; ordered by their ids.
   virtual std::vector<AlignmentRecord> alignments() = 0;

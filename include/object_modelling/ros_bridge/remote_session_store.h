@@ -36,7 +36,6 @@ public:
 
   void addKeyframe(const std::string& session_id, const rgbd::Keyframe& keyframe) override;
   std::vector<int> keyframeIds(const std::string& session_id) override;
-  rgbd::Keyframe keyframe(const std::string& session_id, int keyframe_id) override;
   keyframes::EncodedKeyframe encodedKeyframe(const std::string& session_id, int keyframe_id) override;
 
   std::vector<keyframes::AlignmentRecord> alignments() override;

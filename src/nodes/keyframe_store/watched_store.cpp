@@ -75,11 +75,6 @@ std::vector<int> WatchedStore::keyframeIds(const std::string& session_id)
   return opened().keyframeIds(session_id);
 }
 
-rgbd::Keyframe WatchedStore::keyframe(const std::string& session_id, int keyframe_id)
-{
-  return opened().keyframe(session_id, keyframe_id);
-}
-
 keyframes::EncodedKeyframe WatchedStore::encodedKeyframe(const std::string& session_id, int keyframe_id)
 {
   return opened().encodedKeyframe(session_id, keyframe_id);
