@@ -145,7 +145,7 @@ std::vector<refinement::PoseScore> Refiner::scores() const
     sets.push_back(candidate.poses);
   refinement::PoseComparisonOptions options;
   options.object_only = objectOnly();
-  return refinement::comparePoses(keyframes_, sets, options);
+  return refinement::comparePoses(keyframes_, sets, options, control_);
 }
 
 bool Refiner::drivesSurfacesApart() const

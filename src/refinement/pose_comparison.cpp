@@ -5,16 +5,19 @@
 #include <random>
 
 #include "icp_matches.h"
+#include "object_modelling/base/statistics.h"
 
 namespace object_modelling::refinement
 {
 namespace
 {
-constexpr double LOSS_SIGMAS = 2.4;    // beyond, differences count robustly (Cauchy)
-constexpr double GRAY_SIGMA = 8;       // grey levels: noise, and what another direction does
-constexpr double MAX_OFF_SIGMAS = 12;  // at the best of the poses: beyond, another surface is in front
-constexpr double SLANT = 1.5;          // what slanted surfaces and the grid of pixels add to the noise of depth
-constexpr int MAX_DRAWS = 20;          // for a sample with depth
+constexpr double LOSS_SIGMAS = 2.4;        // beyond, differences count robustly (Cauchy)
+constexpr double GRAY_SIGMA = 8;           // grey levels: noise, and what another direction does
+constexpr double MAX_OFF_SIGMAS = 12;      // at the best of the poses: beyond, another surface is in front
+constexpr double SLANT = 1.5;              // what slanted surfaces and the grid of pixels add to the noise of depth
+constexpr int MAX_DRAWS = 20;              // for a sample with depth
+constexpr std::size_t MAX_PARTNERS = 100;  // of a keyframe, evenly over the others: time grows with their product
+constexpr std::size_t FIRST = 64;          // samples that tell whether two keyframes may be a pair
 
 struct Sample
 {
@@ -92,13 +95,6 @@ Meeting meet(const Sample& sample, const rgbd::Frame& frame, const rgbd::Frame& 
   return meeting;
 }
 
-double median(std::vector<double> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Adds to the score of each set what the samples of keyframe i meet in keyframe j.
 void addPair(const std::vector<rgbd::Keyframe>& keyframes, std::size_t i, std::size_t j,
              const std::vector<Sample>& samples, const std::vector<PoseSet>& sets, const PoseComparisonOptions& options,
@@ -108,9 +104,13 @@ void addPair(const std::vector<rgbd::Keyframe>& keyframes, std::size_t i, std::s
   for (const PoseSet& set : sets)
     T_j_i.push_back(set.T_session_camera.at(j).inverse() * set.T_session_camera.at(i));
   std::vector<std::vector<Meeting>> meetings(sets.size());  // of samples that all sets see there
-  for (const Sample& sample : samples)
+  std::vector<Meeting> met;
+  for (std::size_t n = 0; n < samples.size(); ++n)
   {
-    std::vector<Meeting> met;
+    const Sample& sample = samples[n];
+    if (n == FIRST && static_cast<double>(meetings.front().size()) < options.min_overlap_ratio / 2 * FIRST)
+      return;  // most of many keyframes have nothing in common
+    met.clear();
     double nearest_sigmas = MAX_OFF_SIGMAS;
     for (std::size_t k = 0; k < sets.size() && (met.empty() || met.back().seen); ++k)
     {
@@ -131,7 +131,7 @@ void addPair(const std::vector<rgbd::Keyframe>& keyframes, std::size_t i, std::s
     std::vector<double> grays;
     for (const Meeting& meeting : meetings[k])
       grays.push_back(meeting.gray);
-    const double exposure = median(grays);
+    const double exposure = base::median(&grays);
     double depth = 0, gray = 0;
     for (const Meeting& meeting : meetings[k])
     {
@@ -146,16 +146,18 @@ void addPair(const std::vector<rgbd::Keyframe>& keyframes, std::size_t i, std::s
 }  // namespace
 
 std::vector<PoseScore> comparePoses(const std::vector<rgbd::Keyframe>& keyframes, const std::vector<PoseSet>& sets,
-                                    const PoseComparisonOptions& options)
+                                    const PoseComparisonOptions& options, base::JobControl& control)
 {
   std::vector<PoseScore> scores(sets.size());
   if (sets.empty())
     return scores;
   std::mt19937_64 random(options.seed);
+  const std::size_t step = (keyframes.size() + MAX_PARTNERS - 1) / MAX_PARTNERS;
   for (std::size_t i = 0; i < keyframes.size(); ++i)
   {
+    control.report("compare poses", i, keyframes.size());
     const std::vector<Sample> samples = samplesOf(keyframes[i].frame, options, &random);
-    for (std::size_t j = 0; j < keyframes.size() && !samples.empty(); ++j)
+    for (std::size_t j = i % step; j < keyframes.size() && !samples.empty(); j += step)
       if (i != j && !keyframes[j].frame.depth_m.empty() && !keyframes[j].frame.gray.empty())
         addPair(keyframes, i, j, samples, sets, options, &scores);
   }

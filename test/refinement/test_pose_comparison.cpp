@@ -42,14 +42,27 @@ PoseSet moved(PoseSet set, const Eigen::Vector3d& by_m)
     set.T_session_camera[i] = set.T_session_camera[i] * Eigen::Translation3d(by_m);
   return set;
 }
+std::vector<PoseScore> compared(const std::vector<rgbd::Keyframe>& keyframes, const std::vector<PoseSet>& sets,
+                                const PoseComparisonOptions& options = {})
+{
+  base::JobControl control;
+  return comparePoses(keyframes, sets, options, control);
+}
 }  // namespace
+
+TEST(PoseComparison, StopsWhenCancelled)
+{
+  base::JobControl control;
+  control.cancel();
+  EXPECT_THROW(comparePoses(arc(), { truth(arc()) }, {}, control), base::Cancelled);
+}
 
 TEST(PoseComparison, PrefersTheTruth)
 {
   const std::vector<rgbd::Keyframe> keyframes = arc();
   const PoseSet exact = truth(keyframes);
   const std::vector<PoseScore> scores =
-      comparePoses(keyframes, { exact, moved(exact, { 0, 0, 0.01 }), moved(exact, { 0, 0, 0.03 }) });
+      compared(keyframes, { exact, moved(exact, { 0, 0, 0.01 }), moved(exact, { 0, 0, 0.03 }) });
   ASSERT_EQ(scores.size(), 3u);
   EXPECT_GT(scores[0].pair_count, 10);
   EXPECT_EQ(scores[0].pair_count, scores[2].pair_count) << "all are judged on the same pixels";
@@ -63,7 +76,7 @@ TEST(PoseComparison, GreyLevelsTellWhatDepthsDoNot)
   // Sideways, most of a table and a box stay where they are.
   const std::vector<rgbd::Keyframe> keyframes = arc();
   const PoseSet exact = truth(keyframes);
-  const std::vector<PoseScore> scores = comparePoses(keyframes, { exact, moved(exact, { 0.006, 0, 0 }) });
+  const std::vector<PoseScore> scores = compared(keyframes, { exact, moved(exact, { 0.006, 0, 0 }) });
   EXPECT_LT(1.3 * scores[0].gray, scores[1].gray);
 }
 
@@ -79,7 +92,7 @@ TEST(PoseComparison, JudgesEachSetWithItsOwnColorOffset)
   }
   PoseSet with = truth(keyframes), without = with;
   with.color_offset_px = { 3, 0 };
-  const std::vector<PoseScore> scores = comparePoses(keyframes, { with, without });
+  const std::vector<PoseScore> scores = compared(keyframes, { with, without });
   EXPECT_LT(scores[0].gray, scores[1].gray);
   EXPECT_EQ(scores[0].depth, scores[1].depth);
 }
@@ -90,32 +103,32 @@ TEST(PoseComparison, LooksAtTheObjectAloneOnRequest)
   const PoseSet exact = truth(keyframes);
   PoseComparisonOptions options;
   options.object_only = true;
-  EXPECT_GT(comparePoses(keyframes, { exact }, options)[0].pair_count, 0);
+  EXPECT_GT(compared(keyframes, { exact }, options)[0].pair_count, 0);
   for (rgbd::Keyframe& keyframe : keyframes)
     keyframe.frame.object_mask.release();
-  EXPECT_EQ(comparePoses(keyframes, { exact }, options)[0].pair_count, 0);
+  EXPECT_EQ(compared(keyframes, { exact }, options)[0].pair_count, 0);
 }
 
 TEST(PoseComparison, TheSameInputGivesTheSameScores)
 {
   const std::vector<rgbd::Keyframe> keyframes = arc();
   const PoseSet exact = truth(keyframes);
-  const std::vector<PoseScore> one = comparePoses(keyframes, { exact }), again = comparePoses(keyframes, { exact });
+  const std::vector<PoseScore> one = compared(keyframes, { exact }), again = compared(keyframes, { exact });
   EXPECT_EQ(one[0].depth, again[0].depth);
   EXPECT_EQ(one[0].gray, again[0].gray);
 }
 
 TEST(PoseComparison, KnowsNothingOfOneKeyframeOrOfNoImages)
 {
-  EXPECT_TRUE(comparePoses(arc(), {}).empty());
-  EXPECT_EQ(comparePoses({}, { {} })[0].pair_count, 0);
+  EXPECT_TRUE(compared(arc(), {}).empty());
+  EXPECT_EQ(compared({}, { {} })[0].pair_count, 0);
   std::vector<rgbd::Keyframe> one = arc();
   one.resize(1);
-  EXPECT_EQ(comparePoses(one, { truth(one) })[0].pair_count, 0);
+  EXPECT_EQ(compared(one, { truth(one) })[0].pair_count, 0);
   std::vector<rgbd::Keyframe> blind = arc();
   for (rgbd::Keyframe& keyframe : blind)
     keyframe.frame.depth_m.release();
-  const PoseScore score = comparePoses(blind, { truth(blind) })[0];
+  const PoseScore score = compared(blind, { truth(blind) })[0];
   EXPECT_EQ(score.pair_count, 0);
   EXPECT_EQ(score.total(), 0);
 }

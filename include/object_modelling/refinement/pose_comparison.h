@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "object_modelling/base/job_control.h"
 #include "object_modelling/rgbd/keyframe.h"
 
 namespace object_modelling::refinement
@@ -34,9 +35,9 @@ struct PoseComparisonOptions
 };
 
 /// Compares sets of poses of the same keyframes by pixels that are drawn at random, of which the refinements used next
-/// to none, over all pairs of keyframes, of which they used few: what fits better there is not only fitted better. Each
-/// set is judged on the same pixels. One score per set.
+/// to none, over all pairs of keyframes (at most 100 for each), of which they used few: what fits better there is not
+/// only fitted better. Each set is judged on the same pixels. One score per set. Throws base::Cancelled.
 std::vector<PoseScore> comparePoses(const std::vector<rgbd::Keyframe>& keyframes, const std::vector<PoseSet>& sets,
-                                    const PoseComparisonOptions& options = {});
+                                    const PoseComparisonOptions& options, base::JobControl& control);
 
 }  // namespace object_modelling::refinement
