@@ -6,8 +6,7 @@
 #include <csignal>
 
 #include "../../src/keyframes/sql_store.h"
-#include "postgresql_server.h"
-#include "store_fixtures.h"
+#include "every_backend.h"
 
 namespace object_modelling::keyframes
 {
@@ -89,18 +88,14 @@ std::string stateOf(SessionStore& store)
 }
 }  // namespace
 
-class SessionChangeTest : public ::testing::TestWithParam<std::string>
+class SessionChangeTest : public OnEveryBackend
 {
 protected:
   void SetUp() override
   {
-    if (GetParam() == "sqlite")
-      connection_ = folder_.path("store.db");
-    else if (PostgresqlServer* server = PostgresqlServer::shared())
-      connection_ = server->createDatabase();
-    else
-      GTEST_SKIP() << "PostgreSQL's server is not installed (package postgresql)";
-    fill();
+    OnEveryBackend::SetUp();
+    if (!IsSkipped())
+      fill();
   }
   void fill()
   {
@@ -110,11 +105,6 @@ protected:
     store->createSession(makeSession("a"));
     for (int id = 0; id < 3; ++id)
       store->addKeyframe("a", makeKeyframe(id));
-  }
-  std::unique_ptr<SqlDialect> dialect() const
-  {
-    return GetParam() == "sqlite" ? makeSqliteDialect(connection_, JournalMode::WAL)
-                                  : makePostgresqlDialect(connection_);
   }
   /// Whether another process that makes the change dies of its `statement`-th statement.
   bool diesAt(int statement) const
@@ -134,12 +124,8 @@ protected:
     EXPECT_TRUE(WIFSIGNALED(status) || (WIFEXITED(status) && WEXITSTATUS(status) == 0)) << status;
     return WIFSIGNALED(status);
   }
-
-  TemporaryFolder folder_;
-  std::string connection_;
 };
-INSTANTIATE_TEST_SUITE_P(Backends, SessionChangeTest, ::testing::Values("sqlite", "postgresql"),
-                         [](const auto& backend) { return backend.param; });
+INSTANTIATE_ON_EVERY_BACKEND(SessionChangeTest);
 
 TEST_P(SessionChangeTest, WritesAllThatIsSet)
 {

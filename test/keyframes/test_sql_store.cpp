@@ -3,8 +3,7 @@
 #include <atomic>
 #include <thread>
 
-#include "postgresql_server.h"
-#include "store_fixtures.h"
+#include "every_backend.h"
 
 namespace object_modelling::keyframes
 {
@@ -16,18 +15,14 @@ const geometry::Matrix6d NO_COVARIANCE = geometry::Matrix6d::Zero();
 }
 
 /// The same behaviour on every backend.
-class SqlStore : public ::testing::TestWithParam<std::string>
+class SqlStore : public OnEveryBackend
 {
 protected:
   void SetUp() override
   {
-    if (GetParam() == "sqlite")
-      connection_ = folder_.path("store.db");
-    else if (PostgresqlServer* server = PostgresqlServer::shared())
-      connection_ = server->createDatabase();
-    else
-      GTEST_SKIP() << "PostgreSQL's server is not installed (package postgresql)";
-    store_ = openSqlStore(connection_);
+    OnEveryBackend::SetUp();
+    if (!IsSkipped())
+      store_ = openSqlStore(connection_);
   }
   void reopen()
   {
@@ -36,12 +31,9 @@ protected:
   }
   StatusCode codeOf(const std::function<void()>& call) { return statusOf(call).code; }
 
-  TemporaryFolder folder_;
-  std::string connection_;
   std::unique_ptr<SessionStore> store_;
 };
-INSTANTIATE_TEST_SUITE_P(Backends, SqlStore, ::testing::Values("sqlite", "postgresql"),
-                         [](const auto& backend) { return backend.param; });
+INSTANTIATE_ON_EVERY_BACKEND(SqlStore);
 
 TEST_P(SqlStore, KeepsSessions)
 {

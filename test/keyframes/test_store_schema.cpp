@@ -4,30 +4,16 @@
 #include <fstream>
 
 #include "../../src/keyframes/store_schema.h"
-#include "postgresql_server.h"
-#include "store_fixtures.h"
+#include "every_backend.h"
 
 namespace object_modelling::keyframes
 {
 using base::StatusCode;
 
-class StoreSchema : public ::testing::TestWithParam<std::string>
+class StoreSchema : public OnEveryBackend
 {
 protected:
-  void SetUp() override
-  {
-    if (GetParam() == "sqlite")
-      connection_ = folder_.path("store.db");
-    else if (PostgresqlServer* server = PostgresqlServer::shared())
-      connection_ = server->createDatabase();
-    else
-      GTEST_SKIP() << "PostgreSQL's server is not installed (package postgresql)";
-  }
-  std::unique_ptr<SqlConnection> connect() const
-  {
-    return std::make_unique<SqlConnection>(GetParam() == "sqlite" ? makeSqliteDialect(connection_, JournalMode::WAL)
-                                                                  : makePostgresqlDialect(connection_));
-  }
+  std::unique_ptr<SqlConnection> connect() const { return std::make_unique<SqlConnection>(dialect()); }
   void execute(const std::string& statement) const
   {
     connect()->write("test", [&](soci::session& sql) { sql << statement; });
@@ -39,12 +25,8 @@ protected:
                     [&](soci::session& sql) { sql << "SELECT version FROM store_schema", soci::into(version); });
     return version;
   }
-
-  TemporaryFolder folder_;
-  std::string connection_;
 };
-INSTANTIATE_TEST_SUITE_P(Backends, StoreSchema, ::testing::Values("sqlite", "postgresql"),
-                         [](const auto& backend) { return backend.param; });
+INSTANTIATE_ON_EVERY_BACKEND(StoreSchema);
 
 TEST_P(StoreSchema, MigratesAVersionZeroStore)
 {
