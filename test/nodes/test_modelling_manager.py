@@ -8,9 +8,11 @@ import unittest
 
 import rospy
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path[:0] = [os.path.dirname(os.path.abspath(__file__)),
+                os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support")]
 # pylint: disable=wrong-import-position
 from fake_nodes import FakeJobs, FakeRecording
+from waiting import wait_until
 from object_modelling import msg, srv
 from object_modelling.msg import ManagerState, Progress
 from object_modelling.node_clients import ActionClient
@@ -39,7 +41,7 @@ class ManagerTest(unittest.TestCase):
     def tearDown(self):
         for job in self.jobs.all:
             job.gate.set()
-        self.wait_until(lambda: self.state.state != ManagerState.BUILDING, "the build has ended")
+        wait_until(lambda: self.state.state != ManagerState.BUILDING, "the build has ended")
         if self.state.state == ManagerState.RECORDING:
             self.call("stop_session", srv.StopSession)
         self.recording.shutdown()
@@ -58,12 +60,6 @@ class ManagerTest(unittest.TestCase):
         self.assertEqual(status.code, code, status.message)
         self.assertIn(text, status.message)
 
-    def wait_until(self, condition, what, timeout_s=10):
-        end = time.monotonic() + timeout_s
-        while not condition():
-            self.assertLess(time.monotonic(), end, "timed out: " + what)
-            time.sleep(0.02)
-
     def start(self, session_id, **fields):
         return self.succeed("start_session", srv.StartSession, session_id=session_id, **fields)
 
@@ -74,10 +70,10 @@ class ManagerTest(unittest.TestCase):
 class RecordingTest(ManagerTest):
     def test_start_and_stop(self):
         self.assertEqual(self.start("s1", object_id="mug").session_id, "s1")
-        self.wait_until(lambda: self.state.state == ManagerState.RECORDING, "recording")
+        wait_until(lambda: self.state.state == ManagerState.RECORDING, "recording")
         answer = self.stop()
         self.assertEqual((answer.session_id, answer.keyframe_count, answer.tracked_count), ("s1", 3, 8))
-        self.wait_until(lambda: self.state.state == ManagerState.IDLE, "idle")
+        wait_until(lambda: self.state.state == ManagerState.IDLE, "idle")
 
     def test_wrong_orders(self):
         self.refused(Code.FAILED_PRECONDITION, "start_session first", "stop_session", srv.StopSession)
@@ -102,7 +98,7 @@ class RecordingTest(ManagerTest):
         self.start("s2")
         del self.recording.sessions["s2"]  # no keyframe yet, so nothing in the store
         self.succeed("discard_session", srv.DiscardSession)
-        self.wait_until(lambda: self.state.state == ManagerState.IDLE, "idle")
+        wait_until(lambda: self.state.state == ManagerState.IDLE, "idle")
 
     def test_reason_of_the_tracker_is_passed_on(self):
         self.recording.add("s1")
@@ -110,7 +106,7 @@ class RecordingTest(ManagerTest):
         self.start("s1", resume=True)
         self.recording.fail_stop = True
         self.refused(Code.STORAGE, "disk full", "stop_session", srv.StopSession)
-        self.wait_until(lambda: self.state.status.code == Code.STORAGE, "the reason in ~state")
+        wait_until(lambda: self.state.status.code == Code.STORAGE, "the reason in ~state")
         self.assertEqual(self.state.state, ManagerState.IDLE)
 
     def test_nodes_down_are_named(self):
@@ -125,14 +121,14 @@ class RecordingTest(ManagerTest):
         self.start("s1")
         self.recording.shutdown()
         self.refused(Code.TIMEOUT, "/camera_tracker/stop", "stop_session", srv.StopSession)
-        self.wait_until(lambda: self.state.state == ManagerState.IDLE, "idle")
+        wait_until(lambda: self.state.state == ManagerState.IDLE, "idle")
         self.assertEqual(self.state.status.code, Code.TIMEOUT)
 
     def test_tracker_restarts_while_recording(self):
         self.start("s1")
-        self.wait_until(lambda: self.state.keyframe_count == 1, "the tracker's report")
+        wait_until(lambda: self.state.keyframe_count == 1, "the tracker's report")
         self.recording.publish(False, "")
-        self.wait_until(lambda: self.state.state == ManagerState.IDLE, "idle")
+        wait_until(lambda: self.state.state == ManagerState.IDLE, "idle")
         self.assertIn("no longer records session 's1'", self.state.status.message)
 
 
@@ -149,8 +145,8 @@ class BuildTest(ManagerTest):
         self.assertEqual(self.jobs.refine.goals[0].session_ids, ["s1", "s2"])
         self.assertEqual([goal.session_id for goal in self.jobs.segment.goals], ["s1", "s2"])
         self.assertEqual(self.jobs.build.goals[0].name, "Mug")
-        self.wait_until(lambda: self.state.built.object_id == "mug", "the result in ~state")
-        self.wait_until(lambda: self.progress and not self.progress[-1].active, "the end on ~progress")
+        wait_until(lambda: self.state.built.object_id == "mug", "the result in ~state")
+        wait_until(lambda: self.progress and not self.progress[-1].active, "the end on ~progress")
         self.assertIn("build mug", {report.job for report in self.progress})
 
     def test_what_was_done_is_done_again_on_request_only(self):
@@ -175,7 +171,7 @@ class BuildTest(ManagerTest):
         self.assertEqual(self.jobs.align.goals[0].required, msg.AlignGoal.REQUIRE_ONE)
         self.assertEqual(self.jobs.build.goals[0].left_out, [msg.SessionLeftOut("s2", "with 's1': too little")])
         self.assertEqual(answer.status.message, "PARTIAL; left out: session 's2'")
-        self.wait_until(lambda: self.state.status.message == answer.status.message, "the note in ~state")
+        wait_until(lambda: self.state.status.message == answer.status.message, "the note in ~state")
         self.assertEqual(self.state.status.code, Code.OK)
 
     def test_all_sessions_can_be_required(self):
@@ -197,19 +193,19 @@ class BuildTest(ManagerTest):
         self.refused(Code.NOT_FOUND, "'nope'", "build_object", srv.BuildObject, object_id="mug", session_ids=["nope"])
         self.recording.add("empty", "cup", 0)
         self.refused(Code.FAILED_PRECONDITION, "'empty'", "build_object", srv.BuildObject, object_id="cup")
-        self.wait_until(lambda: self.state.state == ManagerState.IDLE, "idle")
+        wait_until(lambda: self.state.state == ManagerState.IDLE, "idle")
 
     def test_while_building(self):
         self.recording.add("s1", "mug")
         self.jobs.align.gate.clear()
         self.build()
         self.assertTrue(self.jobs.align.started.wait(10))
-        self.wait_until(lambda: self.state.stage == "align", "the stage in ~state")
+        wait_until(lambda: self.state.stage == "align", "the stage in ~state")
         self.refused(Code.FAILED_PRECONDITION, "being built", "build_object", srv.BuildObject, object_id="cup")
         self.refused(Code.FAILED_PRECONDITION, "being built", "start_session", srv.StartSession)
         self.refused(Code.FAILED_PRECONDITION, "being built", "discard_session", srv.DiscardSession, session_id="s1")
         self.assertEqual(self.succeed("cancel", srv.Cancel).object_id, "mug")
-        self.wait_until(lambda: self.state.state == ManagerState.IDLE, "idle")
+        wait_until(lambda: self.state.state == ManagerState.IDLE, "idle")
         self.assertEqual(self.state.status.code, Code.CANCELLED)
         self.assertIn("'align'", self.state.status.message)
         self.assertEqual(self.jobs.build.goals, [])
@@ -233,7 +229,7 @@ class BuildTest(ManagerTest):
         self.jobs.segment.status = msg.Status(Code.NO_RESULT, "no support plane")
         answer = self.call("build_object", srv.BuildObject, object_id="mug", wait=True)
         self.assertEqual((answer.status.code, answer.status.message), (Code.NO_RESULT, "segment: no support plane"))
-        self.wait_until(lambda: self.state.status.code == Code.NO_RESULT, "the reason in ~state")
+        wait_until(lambda: self.state.status.code == Code.NO_RESULT, "the reason in ~state")
 
 
 class ActionClientTest(ManagerTest):
@@ -273,7 +269,7 @@ class DeadJobTest(ManagerTest):
         self.succeed("build_object", srv.BuildObject, object_id="mug")
         self.assertTrue(self.jobs.refine.started.wait(10))
         self.jobs.refine.silence()
-        self.wait_until(lambda: self.state.state == ManagerState.IDLE, "idle", 15)
+        wait_until(lambda: self.state.state == ManagerState.IDLE, "idle", 15)
         self.assertEqual(self.state.status.code, Code.TIMEOUT)
         self.assertIn("/refiner/refine", self.state.status.message)
 

@@ -1,11 +1,17 @@
 """A camera that does not exist: renders two textured planes from a moving camera and publishes what a driver would,
 with any fault that a test asks for. Needs numpy only."""
+import os
+import sys
 import threading
+import time
 
 import numpy as np
 import rospy
 from sensor_msgs.msg import CameraInfo, Image
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "support"))
+# pylint: disable=wrong-import-position
+from waiting import wait_until
 from object_modelling.msg import TrackingState
 
 WIDTH, HEIGHT, FOCAL = 320, 240, 280.0
@@ -114,11 +120,8 @@ class SyntheticCamera:
 
     def wait_for_listeners(self, timeout_s=15):
         publishers = [p for p in (self._color, self._depth, self._info, self._mask) if p is not None]
-        end = rospy.get_time() + timeout_s
-        while any(p.get_num_connections() == 0 for p in publishers) or self._subscriber.get_num_connections() == 0:
-            if rospy.get_time() > end:
-                raise AssertionError("nobody takes the images")
-            rospy.sleep(0.05)
+        wait_until(lambda: all(p.get_num_connections() > 0 for p in publishers + [self._subscriber]),
+                   "listeners to the images", timeout_s)
 
     def _on_state(self, state):
         with self._changed:
@@ -127,13 +130,13 @@ class SyntheticCamera:
 
     def wait_for_state(self, condition, timeout_s=10):
         """The first state, also of the past, that meets the condition."""
-        end = rospy.get_time() + timeout_s
+        end = time.monotonic() + timeout_s
         with self._changed:
             while True:
                 for state in self.states:
                     if condition(state):
                         return state
-                left = end - rospy.get_time()
+                left = end - time.monotonic()
                 if left <= 0:
                     raise AssertionError("no such state among %s" % [(s.status, s.reason) for s in self.states[-5:]])
                 self._changed.wait(left)

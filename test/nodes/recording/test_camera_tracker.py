@@ -12,11 +12,13 @@ import tf2_ros
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from sensor_msgs.msg import Image
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path[:0] = [os.path.dirname(os.path.abspath(__file__)),
+                os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "support")]
 # pylint: disable=wrong-import-position
 from node_process import NodeProcess
 from synthetic_camera import SCENE, SyntheticCamera
 from tracker_services import TRACKED, Tracker
+from waiting import listen, wait_until
 from object_modelling import srv
 from object_modelling.msg import Keyframe, Status, TrackingState
 
@@ -46,11 +48,10 @@ class CameraTrackerTest(unittest.TestCase):
     def test_good_run(self):
         poses, keyframes = {}, []
         subscribers = [
-            rospy.Subscriber("left/camera_tracker/pose", PoseWithCovarianceStamped,
-                             lambda pose: poses.update({pose.header.stamp: pose})),
-            rospy.Subscriber("left/camera_tracker/keyframe", Keyframe, keyframes.append),
+            listen("left/camera_tracker/pose", PoseWithCovarianceStamped,
+                   lambda pose: poses.update({pose.header.stamp: pose})),
+            listen("left/camera_tracker/keyframe", Keyframe, keyframes.append),
         ]
-        rospy.sleep(0.5)
         self.start("good", object_id="mug")
         stamps = []
         for index in range(45):
@@ -65,7 +66,7 @@ class CameraTrackerTest(unittest.TestCase):
         ended = self.tracker.stop()
         self.assertEqual(ended.status.code, Status.OK, ended.status.message)
         self.assertEqual((ended.session_id, ended.frame_count), ("good", 45))
-        rospy.sleep(0.3)
+        wait_until(lambda: len(poses) >= 45 and len(keyframes) >= ended.keyframe_count, "45 poses and all keyframes")
         self.assertEqual(sorted(poses), stamps)
         pose = poses[stamps[-1]]
         self.assertEqual(pose.header.frame_id, "left_session")
@@ -166,13 +167,12 @@ class CameraTrackerTest(unittest.TestCase):
 
     def test_debug_image(self):
         images = []
-        subscriber = rospy.Subscriber("left/camera_tracker/debug_image", Image, images.append)
-        rospy.sleep(0.5)
+        subscriber = listen("left/camera_tracker/debug_image", Image, images.append)
         self.start("debug")
         for index in range(3):
             self.camera.track(index)
+            wait_until(lambda expected=index + 1: len(images) >= expected, "the image of frame %d" % index)
         self.tracker.stop()
-        rospy.sleep(0.3)
         subscriber.unregister()
         self.assertEqual(len(images), 3)
         self.assertEqual((images[0].encoding, images[0].header.frame_id), ("bgr8", "left_optical"))
@@ -211,8 +211,7 @@ class CameraTrackerTest(unittest.TestCase):
         for index in range(3):
             fast.track(index)
         poses = []
-        subscriber = rospy.Subscriber("fast/camera_tracker/pose", PoseWithCovarianceStamped, poses.append)
-        rospy.sleep(0.5)
+        subscriber = listen("fast/camera_tracker/pose", PoseWithCovarianceStamped, poses.append)
         for burst in (range(3, 23), range(23, 43), range(43, 63)):
             last = fast.send_at_once(burst)
             state = fast.wait_for_state(lambda s, last=last: s.header.stamp == last)
@@ -220,10 +219,9 @@ class CameraTrackerTest(unittest.TestCase):
         self.assertGreater(state.dropped_frames, 5)
         self.assertEqual(state.frame_count + state.dropped_frames, 63)
         self.assertEqual(state.tracked_count, state.frame_count)
-        rospy.sleep(0.3)
+        wait_until(lambda: poses and poses[-1].header.stamp == last, "the pose of the last frame")
         error_m = abs(poses[-1].pose.pose.position.x - SCENE.world_from_camera(62)[1][0])
         self.assertLess(error_m, 0.006)
-        self.assertEqual(poses[-1].header.stamp, last)
         tracker.reset()
         subscriber.unregister()
 
@@ -253,26 +251,25 @@ class CameraTrackerTest(unittest.TestCase):
 
 
 class SilentInputsTest(unittest.TestCase):
+    @staticmethod
+    def send_until(camera, text, **faults):
+        """Sends frames until the tracker says `text`; returns all that it says."""
+        def said():
+            camera.send(0, **faults)
+            return any(text in state.reason for state in camera.states)
+        wait_until(said, "'%s' in ~state" % text)
+        return next(state.reason for state in camera.states if text in state.reason)
+
     def test_1_silent_topics_are_named(self):
         camera = SyntheticCamera("silent", with_info=False)
         state = camera.wait_for_state(lambda s: "/silent/rgb/image_rect_color" in s.reason)
         self.assertFalse(state.input_ok)
-        end = rospy.get_time() + 10
-        while rospy.get_time() < end and not any("camera_info" in s.reason and "image" not in s.reason.split(";")[0]
-                                                 for s in camera.states):
-            camera.send(0)
-            rospy.sleep(0.1)
-        self.assertIn("no message on /silent/rgb/camera_info yet", camera.states[-1].reason)
+        self.send_until(camera, "no message on /silent/rgb/camera_info yet")
 
     def test_2_unsynchronised_streams(self):
         camera = SyntheticCamera("silent")
         camera.wait_for_listeners()
-        end = rospy.get_time() + 10
-        while rospy.get_time() < end and not any("synchronised" in s.reason for s in camera.states):
-            camera.send(0, depth_shift_s=500.0)
-            rospy.sleep(0.1)
-        reason = camera.wait_for_state(lambda s: "synchronised" in s.reason).reason
-        self.assertIn("0.02", reason)
+        self.assertIn("0.02", self.send_until(camera, "synchronised", depth_shift_s=500.0))
 
     def test_object_mode_waits_for_masks(self):
         camera = SyntheticCamera("object", with_masks=True)

@@ -16,10 +16,12 @@ from nav_msgs.msg import Path
 from sensor_msgs.msg import PointCloud2
 from visualization_msgs.msg import MarkerArray
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path[:0] = [os.path.dirname(os.path.abspath(__file__)),
+                os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "support")]
 # pylint: disable=wrong-import-position
 from node_process import NodeProcess
 from synthetic_camera import HEIGHT, SCENE, WIDTH, SyntheticCamera, image_message
+from waiting import wait_until
 from object_modelling import srv
 from object_modelling.msg import (
     Keyframe, KeyframePose, ObjectMask, PoseUpdate, Session, SessionChange, StageMark, Status, StoreState)
@@ -95,13 +97,8 @@ class Store:
         for subscriber in self._subscribers:
             subscriber.unregister()
 
-    @staticmethod
-    def wait(condition, timeout_s=10):
-        end = rospy.get_time() + timeout_s
-        while not condition():
-            if rospy.get_time() > end:
-                raise AssertionError("waited in vain")
-            rospy.sleep(0.02)
+    def wait(self, condition):
+        wait_until(condition, "%s to do as the test says" % self.name)
 
 
 class KeyframeStoreTest(unittest.TestCase):

@@ -12,10 +12,12 @@ import rospy
 import rostest
 from sensor_msgs.msg import CameraInfo, Image
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path[:0] = [os.path.dirname(os.path.abspath(__file__)),
+                os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "support")]
 # pylint: disable=wrong-import-position
 from node_process import NodeProcess
 from synthetic_camera import SCENE, SyntheticCamera, image_message
+from waiting import wait_until
 from object_modelling.msg import TrackingState
 
 
@@ -107,9 +109,7 @@ class PlayDatasetTest(unittest.TestCase):
     def test_loop(self):
         listener = self.listen(answers=True)
         process = self.play(self.recording, "--lossless", "--loop")
-        end = rospy.get_time() + 20
-        while len(listener.received["depth"]) < 70 and rospy.get_time() < end:
-            rospy.sleep(0.02)
+        wait_until(lambda: len(listener.received["depth"]) >= 70, "70 depth images", 20)
         code, output = process.interrupt()
         self.assertEqual(code, 0, output)
         stamps = [m.header.stamp for m in listener.received["color"]]

@@ -10,11 +10,13 @@ import rostest
 import tf2_ros
 from geometry_msgs.msg import PoseWithCovarianceStamped, TransformStamped
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path[:0] = [os.path.dirname(os.path.abspath(__file__)),
+                os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "support")]
 # pylint: disable=wrong-import-position
 from node_process import NodeProcess
 from synthetic_camera import StepwiseScene, SyntheticCamera
 from tracker_services import TRACKED, Tracker
+from waiting import listen, wait_until
 from object_modelling.msg import Status
 
 
@@ -40,8 +42,7 @@ class RobotMotionTest(unittest.TestCase):
         tracker = Tracker(namespace)
         camera.wait_for_listeners()
         poses = []
-        subscriber = rospy.Subscriber(namespace + "/camera_tracker/pose", PoseWithCovarianceStamped, poses.append)
-        rospy.sleep(0.5)
+        subscriber = listen(namespace + "/camera_tracker/pose", PoseWithCovarianceStamped, poses.append)
         self.assertEqual(tracker.start(session_id="steps").status.code, Status.OK)
         states = []
         for index in range(21):
@@ -54,7 +55,8 @@ class RobotMotionTest(unittest.TestCase):
                                    0.0017 * random.randn()))
             states.append(camera.wait_for_state(lambda s, stamp=stamp: s.header.stamp == stamp))
         tracker.reset()
-        rospy.sleep(0.3)
+        if states[-1].status in TRACKED:
+            wait_until(lambda: poses and poses[-1].header.stamp == stamp, "the pose of the last frame")
         subscriber.unregister()
         if states[-1].status not in TRACKED:
             return None, states
