@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Counts the test cases of a finished ctest run: JUnit files of gtest and rostest, and the summaries of unittest."""
+"""Names the failed test cases of a finished ctest run and counts all: JUnit files of gtest and rostest, and the
+summaries of unittest."""
 
 import glob
 import os
@@ -8,14 +9,29 @@ import sys
 import xml.etree.ElementTree as ElementTree
 
 
+MAX_REASON_LINES = 12
+
+
+def fault(case):
+    """The <failure> or <error> of a case, if it has one."""
+    found = case.find("failure")
+    return found if found is not None else case.find("error")
+
+
 def junit_counts(path):
-    """(cases, failed, skipped) of one result file; an unreadable one counts as one failure."""
+    """(cases, failed, skipped) of one result file; an unreadable one counts as one failure. Prints the failed ones:
+    a rostest's own output buries them below what its nodes print."""
     try:
         root = ElementTree.parse(path).getroot()
     except (ElementTree.ParseError, OSError):
+        print(f"FAILED {os.path.basename(path)}: cannot be read")
         return 1, 1, 0
     cases = list(root.iter("testcase"))
-    failed = sum(1 for case in cases if case.find("failure") is not None or case.find("error") is not None)
+    faults = [(case, fault(case)) for case in cases if fault(case) is not None]
+    for case, found in faults:
+        reason = (found.text or found.get("message") or "").strip().splitlines()[-MAX_REASON_LINES:]
+        print("\n  ".join([f"FAILED {os.path.basename(path)}: {case.get('name')}"] + reason))
+    failed = len(faults)
     skipped = sum(1 for case in cases
                   if case.find("skipped") is not None or case.get("result") == "skipped" or case.get("status") == "notrun")
     return len(cases), failed, skipped
@@ -41,7 +57,10 @@ def main():
     failed_path = os.path.join(build, "Testing", "Temporary", "LastTestsFailed.log")
     if failed == 0 and os.path.exists(failed_path):
         with open(failed_path) as lines:
-            crashed = sum(1 for line in lines if line.strip())
+            names = [line.strip() for line in lines if line.strip()]
+        for name in names:
+            print(f"FAILED {name}: ended without a result")
+        crashed = len(names)
         failed, cases = crashed, cases + crashed
     print(f"{cases - failed - skipped} passed, {failed} failed, {skipped} skipped")
     return 1 if failed or cases == skipped else 0
