@@ -106,12 +106,12 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
   control.report("read", 0, 2);
   const Points points = readPoints(arguments.model, arguments.model_unit_m);
   control.report("read", 1, 2);
-  const geometry::TriangleMesh reference = evaluation::readGeometry(arguments.reference, arguments.reference_unit_m);
+  const mesh::TriangleMesh reference = evaluation::readGeometry(arguments.reference, arguments.reference_unit_m);
   control.report("read", 2, 2);
-  std::unique_ptr<evaluation::ReferenceSurface> surface;
+  std::unique_ptr<mesh::ReferenceSurface> surface;
   try
   {
-    surface = std::make_unique<evaluation::ReferenceSurface>(reference);
+    surface = std::make_unique<mesh::ReferenceSurface>(reference);
   }
   catch (const base::Error& error)
   {

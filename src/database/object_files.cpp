@@ -10,8 +10,8 @@
 #include "object_modelling/base/status.h"
 #include "object_modelling/database/cloud_file.h"
 #include "object_modelling/database/object_database.h"
-#include "object_modelling/surface/mesh_files.h"
-#include "object_modelling/surface/textured_mesh_files.h"
+#include "object_modelling/mesh/mesh_files.h"
+#include "object_modelling/mesh/textured_mesh_files.h"
 #include "pcd_files.h"
 #include "yaml_text.h"
 
@@ -124,12 +124,12 @@ void writeObjectFiles(const std::string& folder, const ObjectModel& model, base:
   fs::create_directory(folder + "/mesh");
   fs::create_directory(folder + "/views");
   control.report(stage, 0, total);
-  surface::writeMesh(folder + "/mesh/mesh.ply", model.mesh);
-  surface::writeMesh(folder + "/mesh/mesh.obj", model.mesh);
+  mesh::writeMesh(folder + "/mesh/mesh.ply", model.mesh);
+  mesh::writeMesh(folder + "/mesh/mesh.obj", model.mesh);
   if (!model.textured.empty())
   {
-    surface::writeTexturedMesh(folder + "/mesh/textured.obj", model.textured);
-    surface::writeTexturedMesh(folder + "/mesh/textured.glb", model.textured);
+    mesh::writeTexturedMesh(folder + "/mesh/textured.obj", model.textured);
+    mesh::writeTexturedMesh(folder + "/mesh/textured.glb", model.textured);
     writeImage(folder + "/mesh/textured_seen.png", model.textured.seen, {});
   }
   if (!model.preview_bgr.empty())

@@ -116,7 +116,7 @@ Placement trimmedIcp(const std::vector<Eigen::Vector3d>& points, const SampleTre
   return start;
 }
 
-double fitToSurface(const std::vector<Eigen::Vector3d>& points, const ReferenceSurface& surface,
+double fitToSurface(const std::vector<Eigen::Vector3d>& points, const mesh::ReferenceSurface& surface,
                     Eigen::Isometry3d* T_reference_model)
 {
   std::vector<Eigen::Vector3d> moved(points.size()), offsets(points.size());
@@ -167,7 +167,7 @@ double fitToSurface(const std::vector<Eigen::Vector3d>& points, const ReferenceS
   return size_m;
 }
 
-double trimmedRms_m(const std::vector<Eigen::Vector3d>& points, const ReferenceSurface& surface,
+double trimmedRms_m(const std::vector<Eigen::Vector3d>& points, const mesh::ReferenceSurface& surface,
                     const Eigen::Isometry3d& T_reference_model, double overlap_ratio)
 {
   std::vector<double> distances_m;

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "object_modelling/evaluation/reference_surface.h"
+#include "object_modelling/mesh/reference_surface.h"
 
 namespace object_modelling::evaluation
 {
@@ -39,11 +39,11 @@ Placement trimmedIcp(const std::vector<Eigen::Vector3d>& points, const SampleTre
 /// One Gauss-Newton step of the weighted distances to the triangles, along the directions to their nearest points,
 /// which serve as normals and hold at edges too. Returns the step's size (m): rotation counts by the radius of the
 /// points. Directions that the surface leaves free (round a can's axis) stay.
-double fitToSurface(const std::vector<Eigen::Vector3d>& points, const ReferenceSurface& surface,
+double fitToSurface(const std::vector<Eigen::Vector3d>& points, const mesh::ReferenceSurface& surface,
                     Eigen::Isometry3d* T_reference_model);
 
 /// Root mean square distance to the triangles of the nearest `overlap_ratio` of the points.
-double trimmedRms_m(const std::vector<Eigen::Vector3d>& points, const ReferenceSurface& surface,
+double trimmedRms_m(const std::vector<Eigen::Vector3d>& points, const mesh::ReferenceSurface& surface,
                     const Eigen::Isometry3d& T_reference_model, double overlap_ratio);
 
 }  // namespace object_modelling::evaluation

@@ -68,7 +68,7 @@ std::vector<std::string> ComparisonOptions::violations() const
   return check.violations();
 }
 
-Comparison compareToReference(const std::vector<Eigen::Vector3d>& points_model, const ReferenceSurface& surface,
+Comparison compareToReference(const std::vector<Eigen::Vector3d>& points_model, const mesh::ReferenceSurface& surface,
                               const ComparisonOptions& options, base::JobControl& control)
 {
   base::checked(options);

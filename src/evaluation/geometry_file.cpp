@@ -10,7 +10,7 @@
 
 #include "object_modelling/base/status.h"
 #include "object_modelling/evaluation/comparison_files.h"
-#include "object_modelling/surface/mesh_files.h"
+#include "object_modelling/mesh/mesh_files.h"
 
 namespace object_modelling::evaluation
 {
@@ -60,12 +60,12 @@ std::vector<Eigen::Vector3f> pointsOf(const pcl::PCLPointCloud2& cloud)
   return points;
 }
 
-geometry::TriangleMesh readPlyGeometry(const std::string& path)
+mesh::TriangleMesh readPlyGeometry(const std::string& path)
 {
   pcl::PolygonMesh polygons;
   if (pcl::io::loadPLYFile(path, polygons) != 0)
     throw Error(StatusCode::BAD_INPUT, "it is not a PLY file that can be read");
-  geometry::TriangleMesh mesh;
+  mesh::TriangleMesh mesh;
   mesh.vertices = pointsOf(polygons.cloud);
   for (const pcl::Vertices& polygon : polygons.polygons)
     for (std::size_t k = 2; k < polygon.vertices.size(); ++k)
@@ -78,7 +78,7 @@ geometry::TriangleMesh readPlyGeometry(const std::string& path)
   return mesh;
 }
 
-geometry::TriangleMesh readPcdGeometry(const std::string& path)
+mesh::TriangleMesh readPcdGeometry(const std::string& path)
 {
   pcl::PCLPointCloud2 cloud;
   // The reader itself falls over a file without points.
@@ -87,12 +87,12 @@ geometry::TriangleMesh readPcdGeometry(const std::string& path)
     throw Error(StatusCode::BAD_INPUT, "it is no PCD file with points");
   if (pcl::io::loadPCDFile(path, cloud) != 0)
     throw Error(StatusCode::BAD_INPUT, "it is not a PCD file that can be read");
-  geometry::TriangleMesh mesh;
+  mesh::TriangleMesh mesh;
   mesh.vertices = pointsOf(cloud);
   return mesh;
 }
 
-geometry::TriangleMesh readByExtension(const std::string& path)
+mesh::TriangleMesh readByExtension(const std::string& path)
 {
   std::string extension = fs::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -102,17 +102,17 @@ geometry::TriangleMesh readByExtension(const std::string& path)
   if (extension == ".pcd")
     return readPcdGeometry(path);
   if (extension == ".obj")
-    return surface::readMesh(path);
+    return mesh::readMesh(path);
   throw Error(StatusCode::INVALID_ARGUMENT, "extension '" + extension + "' is not known; use .ply, .obj or .pcd");
 }
 }  // namespace
 
-geometry::TriangleMesh readGeometry(const std::string& path, double unit_m)
+mesh::TriangleMesh readGeometry(const std::string& path, double unit_m)
 {
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored))
     throw Error(StatusCode::NOT_FOUND, "'" + path + "' is no file");
-  geometry::TriangleMesh mesh;
+  mesh::TriangleMesh mesh;
   try
   {
     mesh = readByExtension(path);

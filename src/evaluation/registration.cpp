@@ -63,8 +63,9 @@ std::vector<Placement> differing(std::vector<Placement> sorted, const Eigen::Vec
   return kept;
 }
 
-Eigen::Isometry3d searchPlacement(const std::vector<Eigen::Vector3d>& points_model, const ReferenceSurface& surface,
-                                  const RegistrationOptions& options, base::JobControl& control)
+Eigen::Isometry3d searchPlacement(const std::vector<Eigen::Vector3d>& points_model,
+                                  const mesh::ReferenceSurface& surface, const RegistrationOptions& options,
+                                  base::JobControl& control)
 {
   const std::vector<Eigen::Vector3d> few = thinned(points_model, options.search_point_count);
   const std::vector<Eigen::Vector3d> more = thinned(points_model, SECOND_POINT_COUNT);
@@ -115,7 +116,8 @@ std::vector<std::string> RegistrationOptions::violations() const
   return check.violations();
 }
 
-RegistrationResult registerToSurface(const std::vector<Eigen::Vector3d>& points_model, const ReferenceSurface& surface,
+RegistrationResult registerToSurface(const std::vector<Eigen::Vector3d>& points_model,
+                                     const mesh::ReferenceSurface& surface,
                                      const std::optional<Eigen::Isometry3d>& T_start,
                                      const RegistrationOptions& options, base::JobControl& control)
 {

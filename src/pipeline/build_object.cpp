@@ -8,9 +8,9 @@
 #include "model_description.h"
 #include "model_frame.h"
 #include "object_modelling/base/options.h"
+#include "object_modelling/mesh/mesh_renderer.h"
+#include "object_modelling/mesh/textured_renderer.h"
 #include "object_modelling/pipeline/report_maker.h"
-#include "object_modelling/surface/mesh_renderer.h"
-#include "object_modelling/surface/textured_renderer.h"
 #include "quality_figures.h"
 
 namespace object_modelling::pipeline
@@ -59,12 +59,12 @@ std::vector<std::string> idsOf(const std::vector<alignment::SessionPlacement>& p
 }
 
 /// A model is worth having without its texture: what is wrong becomes the result's status.
-surface::TextureResult textured(const geometry::TriangleMesh& mesh, const std::vector<rgbd::Keyframe>& views,
-                                const surface::TextureOptions& options, base::JobControl& control)
+texture::TextureResult textured(const mesh::TriangleMesh& mesh, const std::vector<rgbd::Keyframe>& views,
+                                const texture::TextureOptions& options, base::JobControl& control)
 {
   try
   {
-    return surface::textureMesh(mesh, views, options, control);
+    return texture::textureMesh(mesh, views, options, control);
   }
   catch (const base::Cancelled&)
   {
@@ -72,7 +72,7 @@ surface::TextureResult textured(const geometry::TriangleMesh& mesh, const std::v
   }
   catch (const base::Error& error)
   {
-    surface::TextureResult none;
+    texture::TextureResult none;
     none.status = { error.code(), std::string("no texture: ") + error.what() };
     return none;
   }
@@ -147,7 +147,7 @@ private:
   std::optional<Eigen::Isometry3d> T_model_reference_;
   geometry::OrientedBox box_reference_;
   fusion::CloudFusionResult fused_;
-  surface::TextureResult texture_;
+  texture::TextureResult texture_;
   std::vector<std::string> warnings_;  ///< do not cost the model, but whoever built it is told; empty ones count not
   database::ObjectModel model_;
 };
@@ -214,7 +214,7 @@ base::Status Build::reconstruct()
   if (!T_model_reference_)
     T_model_reference_ = box_reference_.T_frame_box.inverse();
   transform(*T_model_reference_, &fused_.cloud);
-  geometry::transform(*T_model_reference_, &surface.mesh);
+  mesh::transform(*T_model_reference_, &surface.mesh);
   for (rgbd::Keyframe& view : views_.keyframes)
     view.T_session_camera = *T_model_reference_ * view.T_session_camera;
   model_.mesh = std::move(surface.mesh);
@@ -224,7 +224,7 @@ base::Status Build::reconstruct()
 
 void Build::addTexture()
 {
-  surface::TextureOptions options = options_.texture;
+  texture::TextureOptions options = options_.texture;
   options.color_offset_px += views_.meanColorOffset_px();
   options.lights = views_.lights;
   texture_ = textured(model_.mesh, views_.keyframes, options, control_);
@@ -246,9 +246,9 @@ void Build::completeModel()
   model_.sessions_left_out = options_.left_out;
   warnings_.insert(warnings_.begin(), partialText(model_));
   const bool has_texture = texture_.status.ok();
-  model_.preview_bgr = has_texture ? surface::renderFourSides(model_.textured) : surface::renderFourSides(model_.mesh);
-  model_.turntable_bgr = has_texture ? surface::renderTurntable(model_.textured, TURNTABLE_STEPS)
-                                     : surface::renderTurntable(model_.mesh, TURNTABLE_STEPS);
+  model_.preview_bgr = has_texture ? mesh::renderFourSides(model_.textured) : mesh::renderFourSides(model_.mesh);
+  model_.turntable_bgr = has_texture ? mesh::renderTurntable(model_.textured, TURNTABLE_STEPS)
+                                     : mesh::renderTurntable(model_.mesh, TURNTABLE_STEPS);
   model_.quality_yaml = qualityYaml(model_, views_.sessions, views_.origins, options_, report_.stages);
   timer_.finish("describe");
 }

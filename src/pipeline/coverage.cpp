@@ -47,16 +47,16 @@ void countDirections(const std::vector<rgbd::Keyframe>& views, Coverage* coverag
 }
 }  // namespace
 
-Coverage coverageOf(const geometry::TriangleMesh& mesh, const std::vector<rgbd::Keyframe>& views)
+Coverage coverageOf(const mesh::TriangleMesh& mesh, const std::vector<rgbd::Keyframe>& views)
 {
   Coverage coverage;
   countDirections(views, &coverage);
-  geometry::TriangleMesh with_normals;
-  const geometry::TriangleMesh* shape = &mesh;
+  mesh::TriangleMesh with_normals;
+  const mesh::TriangleMesh* shape = &mesh;
   if (mesh.normals.empty())
   {
     with_normals = mesh;
-    geometry::computeNormals(&with_normals);
+    mesh::computeNormals(&with_normals);
     shape = &with_normals;
   }
   std::vector<int> seen_by(shape->vertices.size(), 0);

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "object_modelling/geometry/triangle_mesh.h"
+#include "object_modelling/mesh/triangle_mesh.h"
 #include "object_modelling/rgbd/keyframe.h"
 
 namespace object_modelling::pipeline
@@ -26,6 +26,6 @@ struct Coverage
 
 /// T_session_camera of the views holds T_model_camera; the model's centre is the origin. A vertex counts as seen where
 /// a view's depth agrees with it within 5 mm, and at no flatter an angle than 80 degrees.
-Coverage coverageOf(const geometry::TriangleMesh& mesh, const std::vector<rgbd::Keyframe>& views);
+Coverage coverageOf(const mesh::TriangleMesh& mesh, const std::vector<rgbd::Keyframe>& views);
 
 }  // namespace object_modelling::pipeline

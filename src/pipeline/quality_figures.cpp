@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "object_modelling/surface/mesh_check.h"
+#include "object_modelling/mesh/mesh_check.h"
 
 namespace object_modelling::pipeline
 {
@@ -18,9 +18,9 @@ double meanSigma_m(const fusion::FusedCloud& cloud)
 }  // namespace
 
 std::map<std::string, double> qualityFigures(std::size_t view_count, const fusion::CloudFusionResult& fused,
-                                             const geometry::TriangleMesh& mesh, const surface::TextureResult& texture)
+                                             const mesh::TriangleMesh& mesh, const texture::TextureResult& texture)
 {
-  const surface::MeshCheck check = surface::checkMesh(mesh);
+  const mesh::MeshCheck check = mesh::checkMesh(mesh);
   const std::size_t observations = fused.observations_used + fused.observations_inconsistent;
   return { { "view_count", static_cast<double>(view_count) },
            { "point_count", static_cast<double>(fused.cloud.size()) },

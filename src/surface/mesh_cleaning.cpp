@@ -4,13 +4,13 @@
 #include <array>
 #include <set>
 
-#include "disjoint_sets.h"
+#include "object_modelling/base/disjoint_sets.h"
 
 namespace object_modelling::surface
 {
 namespace
 {
-float area_m2(const geometry::TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle)
+float area_m2(const mesh::TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle)
 {
   const Eigen::Vector3f& a = mesh.vertices[triangle[0]];
   return 0.5f * (mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a).norm();
@@ -18,7 +18,7 @@ float area_m2(const geometry::TriangleMesh& mesh, const std::array<std::uint32_t
 
 }  // namespace
 
-void keepVertices(const std::vector<char>& keep, geometry::TriangleMesh* mesh)
+void keepVertices(const std::vector<char>& keep, mesh::TriangleMesh* mesh)
 {
   auto& triangles = mesh->triangles;
   triangles.erase(std::remove_if(triangles.begin(), triangles.end(),
@@ -60,7 +60,7 @@ void keepVertices(const std::vector<char>& keep, geometry::TriangleMesh* mesh)
   }
 }
 
-void removeDegenerateTriangles(geometry::TriangleMesh* mesh)
+void removeDegenerateTriangles(mesh::TriangleMesh* mesh)
 {
   std::set<std::array<std::uint32_t, 3>> seen;
   auto& triangles = mesh->triangles;
@@ -74,9 +74,9 @@ void removeDegenerateTriangles(geometry::TriangleMesh* mesh)
   triangles.erase(std::remove_if(triangles.begin(), triangles.end(), unwanted), triangles.end());
 }
 
-void removeSmallPieces(double min_area_ratio, geometry::TriangleMesh* mesh)
+void removeSmallPieces(double min_area_ratio, mesh::TriangleMesh* mesh)
 {
-  DisjointSets pieces(mesh->vertices.size());
+  base::DisjointSets pieces(mesh->vertices.size());
   for (const auto& triangle : mesh->triangles)
   {
     pieces.unite(triangle[0], triangle[1]);
@@ -92,7 +92,7 @@ void removeSmallPieces(double min_area_ratio, geometry::TriangleMesh* mesh)
   keepVertices(keep, mesh);
 }
 
-void splitTouchingFans(geometry::TriangleMesh* mesh)
+void splitTouchingFans(mesh::TriangleMesh* mesh)
 {
   std::vector<std::vector<std::uint32_t>> triangles_of(mesh->vertices.size());
   for (std::uint32_t t = 0; t < mesh->triangles.size(); ++t)
@@ -103,7 +103,7 @@ void splitTouchingFans(geometry::TriangleMesh* mesh)
   for (std::uint32_t vertex = 0; vertex < triangles_of.size(); ++vertex)
   {
     const std::vector<std::uint32_t>& around = triangles_of[vertex];
-    DisjointSets fans(around.size());
+    base::DisjointSets fans(around.size());
     for (std::uint32_t i = 0; i < around.size(); ++i)
     {
       for (std::uint32_t j = 0; j < i; ++j)

@@ -6,7 +6,7 @@
 #include <queue>
 #include <utility>
 
-#include "mesh_topology.h"
+#include "object_modelling/mesh/mesh_topology.h"
 
 namespace object_modelling::surface
 {
@@ -14,7 +14,7 @@ namespace
 {
 /// Distance of every vertex along edges to the nearest one that has this mark, as far as `reach_m` (Dijkstra 1959);
 /// infinite beyond.
-std::vector<double> distances_m(const geometry::TriangleMesh& mesh,
+std::vector<double> distances_m(const mesh::TriangleMesh& mesh,
                                 const std::vector<std::vector<std::uint32_t>>& neighbours,
                                 const std::vector<char>& marks, bool mark, double reach_m)
 {
@@ -46,7 +46,7 @@ std::vector<double> distances_m(const geometry::TriangleMesh& mesh,
 }
 
 /// Marks all within the reach of a vertex that has this mark.
-std::vector<char> grown(const geometry::TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& neighbours,
+std::vector<char> grown(const mesh::TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& neighbours,
                         const std::vector<char>& marks, bool mark, double reach_m)
 {
   const std::vector<double> distance = distances_m(mesh, neighbours, marks, mark, reach_m);
@@ -57,27 +57,27 @@ std::vector<char> grown(const geometry::TriangleMesh& mesh, const std::vector<st
 }
 }  // namespace
 
-std::vector<char> closedMarks(const geometry::TriangleMesh& mesh, const std::vector<char>& marks, double reach_m)
+std::vector<char> closedMarks(const mesh::TriangleMesh& mesh, const std::vector<char>& marks, double reach_m)
 {
-  const auto neighbours = vertexNeighbours(mesh);
+  const auto neighbours = mesh::vertexNeighbours(mesh);
   std::vector<char> result = grown(mesh, neighbours, grown(mesh, neighbours, marks, true, reach_m), false, reach_m);
   for (std::size_t i = 0; i < marks.size(); ++i)  // lengths along edges are not quite the same both ways
     result[i] = static_cast<char>(result[i] || marks[i]);
   return result;
 }
 
-std::vector<char> openedMarks(const geometry::TriangleMesh& mesh, const std::vector<char>& marks, double reach_m)
+std::vector<char> openedMarks(const mesh::TriangleMesh& mesh, const std::vector<char>& marks, double reach_m)
 {
-  const auto neighbours = vertexNeighbours(mesh);
+  const auto neighbours = mesh::vertexNeighbours(mesh);
   std::vector<char> result = grown(mesh, neighbours, grown(mesh, neighbours, marks, false, reach_m), true, reach_m);
   for (std::size_t i = 0; i < marks.size(); ++i)
     result[i] = static_cast<char>(result[i] && marks[i]);
   return result;
 }
 
-void closeTinyHoles(std::size_t max_edges, geometry::TriangleMesh* mesh)
+void closeTinyHoles(std::size_t max_edges, mesh::TriangleMesh* mesh)
 {
-  const TriangleNeighbours neighbours = triangleNeighbours(*mesh);
+  const mesh::TriangleNeighbours neighbours = mesh::triangleNeighbours(*mesh);
   std::map<std::uint32_t, std::uint32_t> next;  // along the rims, as their triangles run
   for (std::size_t t = 0; t < mesh->triangles.size(); ++t)
     for (int i = 0; i < 3; ++i)

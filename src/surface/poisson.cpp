@@ -18,8 +18,8 @@ constexpr int MIN_DEPTH = 4, MAX_DEPTH = 10;
 
 }  // namespace
 
-geometry::TriangleMesh poissonSurface(const std::vector<Eigen::Vector3f>& points,
-                                      const std::vector<Eigen::Vector3f>& normals, double cell_size_m)
+mesh::TriangleMesh poissonSurface(const std::vector<Eigen::Vector3f>& points,
+                                  const std::vector<Eigen::Vector3f>& normals, double cell_size_m)
 {
   pcl::PointCloud<pcl::PointNormal>::Ptr cloud(new pcl::PointCloud<pcl::PointNormal>);
   cloud->resize(points.size());
@@ -46,7 +46,7 @@ geometry::TriangleMesh poissonSurface(const std::vector<Eigen::Vector3f>& points
   std::vector<pcl::Vertices> polygons;
   poisson.performReconstruction(vertices, polygons);
 
-  geometry::TriangleMesh mesh;
+  mesh::TriangleMesh mesh;
   for (const pcl::PointNormal& vertex : vertices)
     mesh.vertices.push_back(vertex.getVector3fMap());
   for (const pcl::Vertices& polygon : polygons)

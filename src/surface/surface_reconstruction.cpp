@@ -8,7 +8,7 @@
 #include "mesh_closing.h"
 #include "object_modelling/base/options.h"
 #include "object_modelling/geometry/point_index.h"
-#include "object_modelling/surface/decimation.h"
+#include "object_modelling/mesh/decimation.h"
 #include "poisson.h"
 #include "thin_walls.h"
 
@@ -72,7 +72,7 @@ bool supported(const Eigen::Vector3f& vertex, const Eigen::Vector3f& normal, con
   return largestGap_rad(vertex, normal, around) < M_PI;
 }
 
-void colourFromCloud(const fusion::FusedCloud& cloud, const geometry::PointIndex& index, geometry::TriangleMesh* mesh)
+void colourFromCloud(const fusion::FusedCloud& cloud, const geometry::PointIndex& index, mesh::TriangleMesh* mesh)
 {
   mesh->colors.resize(mesh->vertices.size());
 #pragma omp parallel for schedule(static)
@@ -95,7 +95,7 @@ void colourFromCloud(const fusion::FusedCloud& cloud, const geometry::PointIndex
 }
 
 /// What was seen, with narrow gaps closed and without the teeth of its rim.
-std::vector<char> observedMarks(const geometry::TriangleMesh& mesh, const SurfaceOptions& options)
+std::vector<char> observedMarks(const mesh::TriangleMesh& mesh, const SurfaceOptions& options)
 {
   const std::vector<char> seen(mesh.seen.begin(), mesh.seen.end());
   return openedMarks(mesh, closedMarks(mesh, seen, GAP_RATIO * options.max_support_distance_m),
@@ -132,10 +132,10 @@ SurfaceResult reconstructSurface(const fusion::FusedCloud& cloud, const std::opt
                                                       static_cast<float>(WALL_RATIO * options.resolution_m));
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i] += spread_m[i] * normals[i];
-  geometry::TriangleMesh mesh = poissonSurface(points, normals, CELL_RATIO * options.resolution_m);
+  mesh::TriangleMesh mesh = poissonSurface(points, normals, CELL_RATIO * options.resolution_m);
   closeTinyHoles(MAX_TINY_EDGES, &mesh);
   removeDegenerateTriangles(&mesh);
-  geometry::computeNormals(&mesh);
+  mesh::computeNormals(&mesh);
   takeSpreadBack(points, normals, spread_m, &mesh);
 
   control.report("mesh", 1, STAGES);
@@ -164,11 +164,12 @@ SurfaceResult reconstructSurface(const fusion::FusedCloud& cloud, const std::opt
   control.report("mesh", 3, STAGES);
   if (options.max_triangles > 0)
   {
-    const DecimationResult decimated = decimate(mesh, { options.max_triangles, options.max_decimation_error_m });
+    const mesh::DecimationResult decimated =
+        mesh::decimate(mesh, { options.max_triangles, options.max_decimation_error_m });
     mesh = decimated.mesh;
     result.warning = decimated.status.message;
   }
-  geometry::computeNormals(&mesh);
+  mesh::computeNormals(&mesh);
   if (cloud.colors.size() == cloud.size())
     colourFromCloud(cloud, index, &mesh);
   control.report("mesh", STAGES, STAGES);

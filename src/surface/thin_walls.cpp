@@ -70,7 +70,7 @@ std::vector<float> spreadOfWalls_m(const std::vector<Eigen::Vector3f>& points,
 }
 
 void takeSpreadBack(const std::vector<Eigen::Vector3f>& spread_points, const std::vector<Eigen::Vector3f>& normals,
-                    const std::vector<float>& spread_m, geometry::TriangleMesh* mesh)
+                    const std::vector<float>& spread_m, mesh::TriangleMesh* mesh)
 {
   if (std::all_of(spread_m.begin(), spread_m.end(), [](float value) { return value == 0; }))
     return;
@@ -94,7 +94,7 @@ void takeSpreadBack(const std::vector<Eigen::Vector3f>& spread_points, const std
     if (total > 0)
       mesh->vertices[i] -= moved / total;
   }
-  geometry::computeNormals(mesh);
+  mesh::computeNormals(mesh);
 }
 
 }  // namespace object_modelling::surface

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "object_modelling/geometry/point_index.h"
-#include "object_modelling/geometry/triangle_mesh.h"
+#include "object_modelling/mesh/triangle_mesh.h"
 
 namespace object_modelling::surface
 {
@@ -18,6 +18,6 @@ std::vector<float> spreadOfWalls_m(const std::vector<Eigen::Vector3f>& points,
 /// Takes a mesh of spread points back: vertices move as the spread points round them, of their side, have moved. Needs
 /// the mesh's normals, and makes them anew.
 void takeSpreadBack(const std::vector<Eigen::Vector3f>& spread_points, const std::vector<Eigen::Vector3f>& normals,
-                    const std::vector<float>& spread_m, geometry::TriangleMesh* mesh);
+                    const std::vector<float>& spread_m, mesh::TriangleMesh* mesh);
 
 }  // namespace object_modelling::surface

@@ -133,7 +133,7 @@ double trueTurn_rad(const alignment::PartialModel& a, const alignment::PartialMo
 }
 
 double meshDistance_mm(const std::vector<Eigen::Vector3f>& points, const Eigen::Isometry3d& T_object_session,
-                       const evaluation::ReferenceSurface& surface)
+                       const mesh::ReferenceSurface& surface)
 {
   double sum_m = 0;
   for (const Eigen::Vector3f& p : points)
@@ -142,7 +142,7 @@ double meshDistance_mm(const std::vector<Eigen::Vector3f>& points, const Eigen::
 }
 
 CandidateErrors errorsOf(const Eigen::Isometry3d& T_a_b, const alignment::PartialModel& b, const SessionTruth& truth_a,
-                         const SessionTruth& truth_b, const evaluation::ReferenceSurface& surface)
+                         const SessionTruth& truth_b, const mesh::ReferenceSurface& surface)
 {
   const Eigen::Isometry3d T_a_b_true = truth_a.T_session_object * truth_b.T_session_object.inverse();
   const Eigen::Vector3d centre = b.centre().cast<double>();

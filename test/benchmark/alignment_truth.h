@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "object_modelling/alignment/pair_alignment.h"
-#include "object_modelling/evaluation/reference_surface.h"
+#include "object_modelling/mesh/reference_surface.h"
 
 // Where the object truly is in a session of a simulated sequence, and how far an alignment is off.
 namespace object_modelling::benchmark_alignment
@@ -32,7 +32,7 @@ double trueTurn_rad(const alignment::PartialModel& a, const alignment::PartialMo
 
 /// Mean, of points of a session from the true mesh.
 double meshDistance_mm(const std::vector<Eigen::Vector3f>& points, const Eigen::Isometry3d& T_object_session,
-                       const evaluation::ReferenceSurface& surface);
+                       const mesh::ReferenceSurface& surface);
 
 struct CandidateErrors
 {
@@ -42,7 +42,7 @@ struct CandidateErrors
 };
 
 CandidateErrors errorsOf(const Eigen::Isometry3d& T_a_b, const alignment::PartialModel& b, const SessionTruth& truth_a,
-                         const SessionTruth& truth_b, const evaluation::ReferenceSurface& surface);
+                         const SessionTruth& truth_b, const mesh::ReferenceSurface& surface);
 
 /// With `surface_suffices` an alignment is right too that puts the surface where it belongs, turned by a symmetry.
 bool isRight(const CandidateErrors& errors, bool surface_suffices);

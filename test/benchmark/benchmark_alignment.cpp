@@ -49,16 +49,16 @@ double secondsSince(std::chrono::steady_clock::time_point start)
 class Surfaces
 {
 public:
-  const evaluation::ReferenceSurface& of(const SessionTruth& truth)
+  const mesh::ReferenceSurface& of(const SessionTruth& truth)
   {
-    std::unique_ptr<evaluation::ReferenceSurface>& surface = surfaces_[truth.object];
+    std::unique_ptr<mesh::ReferenceSurface>& surface = surfaces_[truth.object];
     if (!surface)
-      surface = std::make_unique<evaluation::ReferenceSurface>(evaluation::readGeometry(truth.mesh));
+      surface = std::make_unique<mesh::ReferenceSurface>(evaluation::readGeometry(truth.mesh));
     return *surface;
   }
 
 private:
-  std::map<std::string, std::unique_ptr<evaluation::ReferenceSurface>> surfaces_;
+  std::map<std::string, std::unique_ptr<mesh::ReferenceSurface>> surfaces_;
 };
 
 /// Leaves a run of a third of the keyframes to all of them, as if the walk round the object had been shorter.

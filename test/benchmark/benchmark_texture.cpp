@@ -13,14 +13,14 @@
 #include <opencv2/imgproc.hpp>
 
 #include "object_modelling/fusion/cloud_fusion.h"
+#include "object_modelling/mesh/mesh_files.h"
+#include "object_modelling/mesh/textured_mesh_files.h"
+#include "object_modelling/mesh/textured_renderer.h"
 #include "object_modelling/pipeline/record_session.h"
 #include "object_modelling/pipeline/session_jobs.h"
 #include "object_modelling/source/tum_folder.h"
-#include "object_modelling/surface/mesh_files.h"
 #include "object_modelling/surface/surface_reconstruction.h"
-#include "object_modelling/surface/textured_mesh_files.h"
-#include "object_modelling/surface/textured_renderer.h"
-#include "object_modelling/surface/texturing.h"
+#include "object_modelling/texture/texturing.h"
 #include "support/temp_dir.h"
 #include "texture_quality.h"
 
@@ -41,7 +41,7 @@ struct Arguments
   int hold_out = 5, object = 0;
   double resolution_mm = 2;
   bool color_offset = true;
-  surface::TextureOptions texture;
+  texture::TextureOptions texture;
 };
 
 /// What the chain makes of a recording.
@@ -49,7 +49,7 @@ struct Model
 {
   std::vector<rgbd::Keyframe> keyframes;
   Eigen::Vector2d color_offset_px = Eigen::Vector2d::Zero();
-  geometry::TriangleMesh mesh;
+  mesh::TriangleMesh mesh;
 };
 
 void throwUnlessOk(const base::Status& status)
@@ -97,20 +97,20 @@ Model makeModel(const std::string& recording, const Arguments& arguments)
 }
 
 /// A true mesh without texture is of one colour, which a fit per channel finds.
-surface::TexturedMesh readTruth(const std::string& path)
+mesh::TexturedMesh readTruth(const std::string& path)
 {
   try
   {
-    return surface::readTexturedMesh(path);
+    return mesh::readTexturedMesh(path);
   }
   catch (const base::Error& error)
   {
     if (error.code() != base::StatusCode::BAD_INPUT)
       throw;
   }
-  surface::TexturedMesh plain;
-  plain.mesh = surface::readMesh(path);
-  geometry::computeNormals(&plain.mesh);
+  mesh::TexturedMesh plain;
+  plain.mesh = mesh::readMesh(path);
+  mesh::computeNormals(&plain.mesh);
   plain.texture_bgr = cv::Mat(4, 4, CV_8UC3, cv::Scalar(128, 128, 128));
   plain.uvs.assign(plain.mesh.triangles.size(),
                    { Eigen::Vector2f(0.5f, 0.5f), Eigen::Vector2f(0.5f, 0.5f), Eigen::Vector2f(0.5f, 0.5f) });
@@ -133,17 +133,17 @@ public:
   /// Of one colour.
   bool plain() const { return textured_.texture_bgr.total() <= 16; }
   /// Seen at a frame of the recording.
-  surface::MeshView render(const geometry::PinholeCamera& camera, double stamp_s) const
+  mesh::MeshView render(const geometry::PinholeCamera& camera, double stamp_s) const
   {
     for (const source::StampedPose& pose : trajectory_)
       if (std::abs(pose.stamp_s - stamp_s) < SAME_STAMP_S)
-        return surface::renderTexturedMesh(textured_, camera, pose.T_map_camera.inverse() * T_world_object_,
-                                           TRUTH_SAMPLES_PER_SIDE);
+        return mesh::renderTexturedMesh(textured_, camera, pose.T_map_camera.inverse() * T_world_object_,
+                                        TRUTH_SAMPLES_PER_SIDE);
     throw base::Error(base::StatusCode::NOT_FOUND, "groundtruth.txt has no pose at " + std::to_string(stamp_s));
   }
 
 private:
-  surface::TexturedMesh textured_;
+  mesh::TexturedMesh textured_;
   std::vector<source::StampedPose> trajectory_;
   Eigen::Isometry3d T_world_object_ = Eigen::Isometry3d::Identity();
 };
@@ -157,7 +157,7 @@ geometry::PinholeCamera colorCamera(geometry::PinholeCamera camera, const Eigen:
 }
 
 /// Of the triangles that a picture shows, in the frame of the mesh.
-cv::Mat normalsOf(const surface::MeshView& view, const geometry::TriangleMesh& mesh)
+cv::Mat normalsOf(const mesh::MeshView& view, const mesh::TriangleMesh& mesh)
 {
   cv::Mat normals = cv::Mat::zeros(view.triangle_id.size(), CV_32FC3);
   for (int v = 0; v < normals.rows; ++v)
@@ -186,12 +186,12 @@ void measure(const std::string& recording, const Arguments& arguments)
   for (std::size_t i = 0; i < model.keyframes.size(); ++i)
     (static_cast<int>(i) % arguments.hold_out == arguments.hold_out / 2 ? held_out : used)
         .push_back(model.keyframes[i]);
-  surface::TextureOptions options = arguments.texture;
+  texture::TextureOptions options = arguments.texture;
   if (arguments.color_offset)
     options.color_offset_px = model.color_offset_px;
   base::JobControl control;
   const auto start = std::chrono::steady_clock::now();
-  const surface::TextureResult result = surface::textureMesh(model.mesh, used, options, control);
+  const texture::TextureResult result = texture::textureMesh(model.mesh, used, options, control);
   const double texture_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   throwUnlessOk(result.status);
 
@@ -205,12 +205,12 @@ void measure(const std::string& recording, const Arguments& arguments)
   for (const rgbd::Keyframe& view : held_out)
   {
     const geometry::PinholeCamera camera = colorCamera(view.frame.camera, options.color_offset_px);
-    const surface::MeshView drawn =
-        surface::renderTexturedMesh(result.textured, camera, view.T_session_camera.inverse(), SAMPLES_PER_SIDE);
+    const mesh::MeshView drawn =
+        mesh::renderTexturedMesh(result.textured, camera, view.T_session_camera.inverse(), SAMPLES_PER_SIDE);
     cv::Mat mask;  // without the pinholes that missing depth leaves
     cv::morphologyEx(view.frame.object_mask, mask, cv::MORPH_CLOSE, cv::Mat::ones(5, 5, CV_8UC1));
     mask &= drawn.triangle_id >= 0;
-    std::optional<surface::MeshView> true_view;
+    std::optional<mesh::MeshView> true_view;
     if (truth)
     {
       true_view = truth->render(view.frame.camera, view.frame.stamp_s);
@@ -248,9 +248,9 @@ void measure(const std::string& recording, const Arguments& arguments)
   }
   if (!arguments.out.empty())
   {
-    surface::writeTexturedMesh(arguments.out + "/textured.obj", result.textured);
+    mesh::writeTexturedMesh(arguments.out + "/textured.obj", result.textured);
     cv::imwrite(arguments.out + "/seen.png", result.textured.seen);
-    cv::imwrite(arguments.out + "/sides.png", surface::renderFourSides(result.textured, 600));
+    cv::imwrite(arguments.out + "/sides.png", mesh::renderFourSides(result.textured, 600));
   }
   const auto count = static_cast<double>(held_out.size());
   std::printf(

@@ -24,9 +24,9 @@ Eigen::Isometry3d lookingAtOrigin(double angle_rad)
   return T;
 }
 
-geometry::TriangleMesh boxMesh()
+mesh::TriangleMesh boxMesh()
 {
-  geometry::TriangleMesh mesh;
+  mesh::TriangleMesh mesh;
   for (int corner = 0; corner < 8; ++corner)
   {
     const Eigen::Vector3d sign((corner & 1) - 0.5, ((corner >> 1) & 1) - 0.5, ((corner >> 2) & 1) - 0.5);
@@ -35,7 +35,7 @@ geometry::TriangleMesh boxMesh()
   }
   mesh.triangles = { { 0, 2, 1 }, { 1, 2, 3 }, { 4, 5, 6 }, { 5, 7, 6 }, { 0, 1, 4 }, { 1, 5, 4 },
                      { 2, 6, 3 }, { 3, 6, 7 }, { 0, 4, 2 }, { 2, 4, 6 }, { 1, 3, 5 }, { 3, 7, 5 } };
-  geometry::computeNormals(&mesh);
+  mesh::computeNormals(&mesh);
   return mesh;
 }
 }  // namespace

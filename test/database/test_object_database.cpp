@@ -7,8 +7,8 @@
 #include "model_fixtures.h"
 #include "object_modelling/base/atomic_file.h"
 #include "object_modelling/database/object_database.h"
-#include "object_modelling/surface/mesh_files.h"
-#include "object_modelling/surface/textured_mesh_files.h"
+#include "object_modelling/mesh/mesh_files.h"
+#include "object_modelling/mesh/textured_mesh_files.h"
 #include "support/temp_dir.h"
 
 namespace object_modelling::database
@@ -59,7 +59,7 @@ TEST_F(ObjectDatabaseTest, ListsWhatWasWritten)
   EXPECT_TRUE(std::isnan(entry.quality.at("residual_px")));
   EXPECT_EQ(entry.mesh_path, object + "/mesh/mesh.ply");
   EXPECT_EQ(entry.content_hash, hashOfFile(object + "/object.yaml"));
-  EXPECT_EQ(surface::readMesh(entry.mesh_path).triangles.size(), model.mesh.triangles.size());
+  EXPECT_EQ(mesh::readMesh(entry.mesh_path).triangles.size(), model.mesh.triangles.size());
   EXPECT_TRUE(database_.check().empty());
 }
 
@@ -92,7 +92,7 @@ TEST_F(ObjectDatabaseTest, HoldsTheTexture)
   const std::string folder = write(model) + "/mesh/";
   for (const std::string name : { "textured.obj", "textured.glb" })
   {
-    const surface::TexturedMesh back = surface::readTexturedMesh(folder + name);
+    const mesh::TexturedMesh back = mesh::readTexturedMesh(folder + name);
     EXPECT_EQ(back.mesh.triangles.size(), model.mesh.triangles.size()) << name;
     EXPECT_EQ(cv::norm(back.texture_bgr, model.textured.texture_bgr, cv::NORM_INF), 0) << name;
   }

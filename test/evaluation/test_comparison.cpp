@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "shapes.h"
+#include "support/shapes.h"
 
 namespace object_modelling::evaluation
 {
@@ -14,7 +14,7 @@ using test_support::farAway;
 using test_support::moved;
 using test_support::pointsOf;
 
-Comparison compared(const std::vector<Eigen::Vector3d>& points, const ReferenceSurface& surface,
+Comparison compared(const std::vector<Eigen::Vector3d>& points, const mesh::ReferenceSurface& surface,
                     const ComparisonOptions& options = {})
 {
   base::JobControl control;
@@ -41,7 +41,7 @@ TEST(ComparisonTest, StatisticsOfKnownDistances)
 // 0.5 mm outside a sphere of 50 mm, somewhere else: the distance has to come out whatever the unknown turn is.
 TEST(ComparisonTest, ASphereHalfAMillimetreTooLarge)
 {
-  const ReferenceSurface surface(test_support::sphere(0.05f, 100));
+  const mesh::ReferenceSurface surface(test_support::sphere(0.05f, 100));
   const std::vector<Eigen::Vector3d> points = pointsOf(test_support::sphere(0.0505f, 60));
   for (const bool align : { false, true })
   {
@@ -59,7 +59,7 @@ TEST(ComparisonTest, ASphereHalfAMillimetreTooLarge)
 
 TEST(ComparisonTest, WithoutAlignmentTheModelStaysWhereItIsPut)
 {
-  geometry::TriangleMesh box;
+  mesh::TriangleMesh box;
   test_support::addBox({ 0, 0, 0 }, { 0.1f, 0.1f, 0.1f }, 8, &box);
   std::vector<Eigen::Vector3d> top;
   for (const Eigen::Vector3d& point : pointsOf(box))
@@ -67,9 +67,9 @@ TEST(ComparisonTest, WithoutAlignmentTheModelStaysWhereItIsPut)
       top.push_back(point + Eigen::Vector3d(0, 0, 0.002));
   ComparisonOptions options;
   options.align = false;
-  EXPECT_NEAR(compared(top, ReferenceSurface(box), options).statistics.mean_m, 0.002, 1e-7);
+  EXPECT_NEAR(compared(top, mesh::ReferenceSurface(box), options).statistics.mean_m, 0.002, 1e-7);
   options.T_start = Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.006));
-  const Comparison comparison = compared(top, ReferenceSurface(box), options);
+  const Comparison comparison = compared(top, mesh::ReferenceSurface(box), options);
   EXPECT_NEAR(comparison.statistics.mean_m, 0.008, 1e-7);
   EXPECT_EQ(comparison.statistics.outlier_ratio, 1);
   EXPECT_EQ(comparison.T_reference_model.matrix(), options.T_start->matrix());
@@ -77,7 +77,7 @@ TEST(ComparisonTest, WithoutAlignmentTheModelStaysWhereItIsPut)
 
 TEST(ComparisonTest, MillimetresForMetresAreNamed)
 {
-  const ReferenceSurface metres(test_support::lopsidedShape(3));
+  const mesh::ReferenceSurface metres(test_support::lopsidedShape(3));
   std::vector<Eigen::Vector3d> points = pointsOf(test_support::lopsidedShape(5));
   for (Eigen::Vector3d& point : points)
     point *= 1000;
@@ -91,7 +91,7 @@ TEST(ComparisonTest, MillimetresForMetresAreNamed)
 
 TEST(ComparisonTest, NothingAndNotANumber)
 {
-  const ReferenceSurface surface(test_support::lopsidedShape(3));
+  const mesh::ReferenceSurface surface(test_support::lopsidedShape(3));
   EXPECT_EQ(compared({}, surface).status.code, base::StatusCode::BAD_INPUT);
   std::vector<Eigen::Vector3d> points(30, Eigen::Vector3d(0, 0, std::numeric_limits<double>::quiet_NaN()));
   EXPECT_EQ(compared(points, surface).status.code, base::StatusCode::BAD_INPUT);

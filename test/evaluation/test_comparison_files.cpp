@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include "support/shapes.h"
 #include "object_modelling/base/status.h"
-#include "object_modelling/surface/mesh_files.h"
-#include "shapes.h"
+#include "object_modelling/mesh/mesh_files.h"
 #include "support/temp_dir.h"
 #include "support/transform_matchers.h"
 
@@ -46,16 +46,16 @@ const char DOUBLE_TRIANGLE[] =
 
 TEST_F(ComparisonFilesTest, ReadsMeshesAndClouds)
 {
-  const geometry::TriangleMesh mesh = test_support::lopsidedShape(3);
+  const mesh::TriangleMesh mesh = test_support::lopsidedShape(3);
   for (const char* name : { "a b;$(touch x)'\".ply", "mesh.obj" })
   {
-    surface::writeMesh(folder_.path(name), mesh);
+    mesh::writeMesh(folder_.path(name), mesh);
     EXPECT_EQ(readGeometry(folder_.path(name)).triangles.size(), mesh.triangles.size()) << name;
   }
-  const geometry::TriangleMesh triangle = readGeometry(file("double.PLY", DOUBLE_TRIANGLE), 0.001);
+  const mesh::TriangleMesh triangle = readGeometry(file("double.PLY", DOUBLE_TRIANGLE), 0.001);
   ASSERT_EQ(triangle.triangles.size(), 1u);
   EXPECT_FLOAT_EQ(triangle.vertices[2].y(), 0.25f);
-  const geometry::TriangleMesh cloud =
+  const mesh::TriangleMesh cloud =
       readGeometry(file("cloud.ply",
                         "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
                         "property float z\nend_header\n1 2 3\n4 5 6\n"));
@@ -116,7 +116,7 @@ TEST_F(ComparisonFilesTest, ColouredCloud)
   comparison.distances_m = { 0, 0.01 };
   const std::string path = folder_.path("cloud.ply");
   writeColouredCloud(path, comparison, 0.002);
-  const geometry::TriangleMesh cloud = readGeometry(path);
+  const mesh::TriangleMesh cloud = readGeometry(path);
   ASSERT_EQ(cloud.vertices.size(), 2u);
   EXPECT_EQ(cloud.vertices[1], Eigen::Vector3f(4, 5, 6));
   EXPECT_THROW(writeColouredCloud(folder_.path("no/cloud.ply"), comparison, 0.002), base::Error);

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "shapes.h"
+#include "support/shapes.h"
 #include "support/transform_matchers.h"
 #include "support/violations.h"
 
@@ -17,7 +17,7 @@ using test_support::lopsidedShape;
 using test_support::moved;
 using test_support::pointsOf;
 
-RegistrationResult registered(const std::vector<Eigen::Vector3d>& points, const ReferenceSurface& surface,
+RegistrationResult registered(const std::vector<Eigen::Vector3d>& points, const mesh::ReferenceSurface& surface,
                               const std::optional<Eigen::Isometry3d>& T_start = std::nullopt,
                               const RegistrationOptions& options = {})
 {
@@ -27,7 +27,7 @@ RegistrationResult registered(const std::vector<Eigen::Vector3d>& points, const 
 
 TEST(RegistrationTest, FindsAKnownDisplacementWithoutAGuess)
 {
-  const ReferenceSurface surface(lopsidedShape(4));
+  const mesh::ReferenceSurface surface(lopsidedShape(4));
   const Eigen::Isometry3d T_model_reference = farAway();
   const RegistrationResult result = registered(moved(T_model_reference, pointsOf(lopsidedShape(23))), surface);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
@@ -37,7 +37,7 @@ TEST(RegistrationTest, FindsAKnownDisplacementWithoutAGuess)
 
 TEST(RegistrationTest, FindsEveryOfManyTurns)
 {
-  const ReferenceSurface surface(lopsidedShape(4));
+  const mesh::ReferenceSurface surface(lopsidedShape(4));
   const std::vector<Eigen::Vector3d> points = pointsOf(lopsidedShape(13));
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
@@ -54,7 +54,7 @@ TEST(RegistrationTest, FindsEveryOfManyTurns)
 
 TEST(RegistrationTest, NoiseStrayPointsAndAMissingBottomDoNotMatter)
 {
-  const ReferenceSurface surface(lopsidedShape(4));
+  const mesh::ReferenceSurface surface(lopsidedShape(4));
   std::mt19937 random(5);
   std::normal_distribution<double> noise_m(0, 0.0005);
   std::uniform_real_distribution<double> anywhere_m(-0.05, 0.25);
@@ -72,10 +72,10 @@ TEST(RegistrationTest, NoiseStrayPointsAndAMissingBottomDoNotMatter)
 
 TEST(RegistrationTest, ASymmetricShapeLandsInOneOfItsPoses)
 {
-  geometry::TriangleMesh box, fine;
+  mesh::TriangleMesh box, fine;
   test_support::addBox({ 0, 0, 0 }, { 0.06f, 0.16f, 0.2f }, 2, &box);
   test_support::addBox({ 0, 0, 0 }, { 0.06f, 0.16f, 0.2f }, 20, &fine);
-  const ReferenceSurface surface(box);
+  const mesh::ReferenceSurface surface(box);
   const std::vector<Eigen::Vector3d> points = moved(farAway(), pointsOf(fine));
   const RegistrationResult result = registered(points, surface);
   for (const Eigen::Vector3d& point : points)
@@ -84,7 +84,7 @@ TEST(RegistrationTest, ASymmetricShapeLandsInOneOfItsPoses)
 
 TEST(RegistrationTest, StartsFromAGuess)
 {
-  const ReferenceSurface surface(lopsidedShape(4));
+  const mesh::ReferenceSurface surface(lopsidedShape(4));
   Eigen::Isometry3d T_near = farAway().inverse() * Eigen::Translation3d(0.003, -0.002, 0.004) *
                              Eigen::AngleAxisd(0.03, Eigen::Vector3d::UnitY());
   const RegistrationResult result = registered(moved(farAway(), pointsOf(lopsidedShape(23))), surface, T_near);
@@ -93,7 +93,7 @@ TEST(RegistrationTest, StartsFromAGuess)
 
 TEST(RegistrationTest, TheSameEveryTime)
 {
-  const ReferenceSurface surface(lopsidedShape(4));
+  const mesh::ReferenceSurface surface(lopsidedShape(4));
   const std::vector<Eigen::Vector3d> points = moved(farAway(), pointsOf(lopsidedShape(11)));
   EXPECT_EQ(registered(points, surface).T_reference_model.matrix(),
             registered(points, surface).T_reference_model.matrix());
@@ -101,10 +101,10 @@ TEST(RegistrationTest, TheSameEveryTime)
 
 TEST(RegistrationTest, SaysWhatFixesNoPose)
 {
-  geometry::TriangleMesh triangle;
+  mesh::TriangleMesh triangle;
   triangle.vertices = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
   triangle.triangles = { { 0, 1, 2 } };
-  const ReferenceSurface one(triangle), surface(lopsidedShape(4));
+  const mesh::ReferenceSurface one(triangle), surface(lopsidedShape(4));
   const std::vector<Eigen::Vector3d> points = pointsOf(lopsidedShape(3));
   EXPECT_EQ(registered(points, one).status.code, base::StatusCode::NO_RESULT);
   const std::vector<Eigen::Vector3d> few(points.begin(), points.begin() + 19);
@@ -116,7 +116,7 @@ TEST(RegistrationTest, SaysWhatFixesNoPose)
 
 TEST(RegistrationTest, CanBeCancelledAndChecksItsOptions)
 {
-  const ReferenceSurface surface(lopsidedShape(4));
+  const mesh::ReferenceSurface surface(lopsidedShape(4));
   const std::vector<Eigen::Vector3d> points = pointsOf(lopsidedShape(5));
   base::JobControl control;
   control.cancel();

@@ -11,9 +11,9 @@ namespace
 constexpr float HALF_M = 0.05f;
 
 /// Square of n x n points at z = HALF_M, facing up, and another one at -HALF_M, facing down.
-geometry::TriangleMesh twoSides(int n)
+mesh::TriangleMesh twoSides(int n)
 {
-  geometry::TriangleMesh mesh;
+  mesh::TriangleMesh mesh;
   for (const float z : { HALF_M, -HALF_M })
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j)
@@ -40,7 +40,7 @@ rgbd::Keyframe fromAbove(float depth_m)
 
 TEST(CoverageTest, CountsWhatTheDepthAgreesWith)
 {
-  const geometry::TriangleMesh mesh = twoSides(11);
+  const mesh::TriangleMesh mesh = twoSides(11);
   const float top_m = 0.5f - HALF_M;
   const Coverage one = coverageOf(mesh, { fromAbove(top_m) });
   EXPECT_DOUBLE_EQ(one.seen_ratio, 0.5);  // the side that faces the camera

@@ -7,9 +7,9 @@ namespace object_modelling::surface
 namespace
 {
 /// Two triangles that share an edge, unit square.
-geometry::TriangleMesh square()
+mesh::TriangleMesh square()
 {
-  geometry::TriangleMesh mesh;
+  mesh::TriangleMesh mesh;
   mesh.vertices = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } };
   mesh.colors = { { 1, 1, 1 }, { 2, 2, 2 }, { 3, 3, 3 }, { 4, 4, 4 } };
   mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 } };
@@ -18,7 +18,7 @@ geometry::TriangleMesh square()
 
 TEST(MeshCleaning, KeepsTrianglesOfKeptVerticesAndNoLooseVertex)
 {
-  geometry::TriangleMesh mesh = square();
+  mesh::TriangleMesh mesh = square();
   keepVertices({ 1, 0, 1, 1 }, &mesh);
   ASSERT_EQ(mesh.vertices.size(), 3u);
   ASSERT_EQ(mesh.triangles.size(), 1u);
@@ -31,7 +31,7 @@ TEST(MeshCleaning, KeepsTrianglesOfKeptVerticesAndNoLooseVertex)
 
 TEST(MeshCleaning, RemovesDegenerateAndRepeatedTriangles)
 {
-  geometry::TriangleMesh mesh = square();
+  mesh::TriangleMesh mesh = square();
   mesh.vertices.push_back({ 2, 0, 0 });
   mesh.triangles.push_back({ 0, 1, 4 });  // no area
   mesh.triangles.push_back({ 0, 1, 1 });
@@ -43,11 +43,11 @@ TEST(MeshCleaning, RemovesDegenerateAndRepeatedTriangles)
 
 TEST(MeshCleaning, RemovesSmallPieces)
 {
-  geometry::TriangleMesh mesh = square();
+  mesh::TriangleMesh mesh = square();
   mesh.colors.clear();
   mesh.vertices.insert(mesh.vertices.end(), { { 5, 0, 0 }, { 5.1f, 0, 0 }, { 5, 0.1f, 0 } });
   mesh.triangles.push_back({ 4, 5, 6 });
-  geometry::TriangleMesh all = mesh;
+  mesh::TriangleMesh all = mesh;
   removeSmallPieces(0.02, &mesh);
   EXPECT_EQ(mesh.vertices.size(), 4u);
   EXPECT_EQ(mesh.triangles, square().triangles);
@@ -57,7 +57,7 @@ TEST(MeshCleaning, RemovesSmallPieces)
 
 TEST(MeshCleaning, SplitsFansThatTouchInAVertex)
 {
-  geometry::TriangleMesh mesh = square();
+  mesh::TriangleMesh mesh = square();
   mesh.colors.clear();
   mesh.vertices.insert(mesh.vertices.end(), { { -1, 0, 0 }, { -1, -1, 0 } });
   mesh.triangles.push_back({ 0, 4, 5 });
@@ -71,7 +71,7 @@ TEST(MeshCleaning, SplitsFansThatTouchInAVertex)
 
 TEST(MeshCleaning, NothingIsFine)
 {
-  geometry::TriangleMesh mesh;
+  mesh::TriangleMesh mesh;
   keepVertices({}, &mesh);
   removeDegenerateTriangles(&mesh);
   removeSmallPieces(0.1, &mesh);

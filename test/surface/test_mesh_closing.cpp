@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "object_modelling/surface/mesh_check.h"
+#include "object_modelling/mesh/mesh_check.h"
 
 namespace object_modelling::surface
 {
@@ -14,9 +14,9 @@ constexpr int SIDE = 41;
 constexpr float STEP_M = 0.001F;
 
 /// A square of SIDE x SIDE vertices, STEP_M apart.
-geometry::TriangleMesh square()
+mesh::TriangleMesh square()
 {
-  geometry::TriangleMesh mesh;
+  mesh::TriangleMesh mesh;
   for (int y = 0; y < SIDE; ++y)
     for (int x = 0; x < SIDE; ++x)
       mesh.vertices.emplace_back(STEP_M * static_cast<float>(x), STEP_M * static_cast<float>(y), 0);
@@ -47,20 +47,20 @@ int count(const std::vector<char>& marks)
 
 TEST(MeshClosing, ClosesGapsThatAreNarrowEnough)
 {
-  const geometry::TriangleMesh mesh = square();
+  const mesh::TriangleMesh mesh = square();
   EXPECT_EQ(count(closedMarks(mesh, sides(10, 15), 0.0041)), SIDE * SIDE) << "5 mm wide, all along";
   EXPECT_EQ(closedMarks(mesh, sides(10, 30), 0.0041), sides(10, 30)) << "20 mm wide";
 }
 
 TEST(MeshClosing, DoesNotGrowOverARim)
 {
-  const geometry::TriangleMesh mesh = square();
+  const mesh::TriangleMesh mesh = square();
   EXPECT_EQ(closedMarks(mesh, sides(20, SIDE), 0.0061), sides(20, SIDE));
 }
 
 TEST(MeshClosing, CutsTeethOff)
 {
-  const geometry::TriangleMesh mesh = square();
+  const mesh::TriangleMesh mesh = square();
   std::vector<char> marks = sides(20, SIDE);
   for (int x = 20; x < 26; ++x)
     marks[10 * SIDE + x] = 1;  // one vertex wide
@@ -72,7 +72,7 @@ TEST(MeshClosing, CutsTeethOff)
 
 TEST(MeshClosing, TakesNothingAndAll)
 {
-  const geometry::TriangleMesh mesh = square();
+  const mesh::TriangleMesh mesh = square();
   const std::vector<char> none(SIDE * SIDE, 0), all(SIDE * SIDE, 1);
   EXPECT_EQ(closedMarks(mesh, none, 0.01), none);
   EXPECT_EQ(closedMarks(mesh, all, 0.01), all);
@@ -82,15 +82,15 @@ TEST(MeshClosing, TakesNothingAndAll)
 
 TEST(MeshClosing, ClosesHolesOfFewEdgesAndNoOthers)
 {
-  const geometry::TriangleMesh whole = square();
-  const std::size_t rim = checkMesh(whole).boundary_edge_count;
+  const mesh::TriangleMesh whole = square();
+  const std::size_t rim = mesh::checkMesh(whole).boundary_edge_count;
   for (const std::size_t missing : { 1, 2, 40 })
   {
-    geometry::TriangleMesh mesh = whole;
+    mesh::TriangleMesh mesh = whole;
     const auto first = mesh.triangles.begin() + 20 * 2 * (SIDE - 1) + 30;  // in the middle
     mesh.triangles.erase(first, first + static_cast<std::ptrdiff_t>(missing));
     closeTinyHoles(8, &mesh);
-    const MeshCheck check = checkMesh(mesh);
+    const mesh::MeshCheck check = mesh::checkMesh(mesh);
     if (missing < 3)
       EXPECT_EQ(check.boundary_edge_count, rim);
     else
@@ -98,7 +98,7 @@ TEST(MeshClosing, ClosesHolesOfFewEdgesAndNoOthers)
     EXPECT_EQ(check.misoriented_edge_count, 0u);
     EXPECT_EQ(check.non_manifold_edge_count, 0u);
   }
-  geometry::TriangleMesh triangle;
+  mesh::TriangleMesh triangle;
   triangle.vertices = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
   triangle.triangles = { { 0, 1, 2 } };
   closeTinyHoles(2, &triangle);

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "object_modelling/surface/mesh_check.h"
+#include "object_modelling/mesh/mesh_check.h"
 #include "support/violations.h"
 
 namespace object_modelling::surface
@@ -45,7 +45,7 @@ SurfaceResult reconstruct(const fusion::FusedCloud& cloud, const SurfaceOptions&
 }
 
 /// Edges by how many triangles use them.
-std::map<std::pair<std::uint32_t, std::uint32_t>, int> edgesOf(const geometry::TriangleMesh& mesh)
+std::map<std::pair<std::uint32_t, std::uint32_t>, int> edgesOf(const mesh::TriangleMesh& mesh)
 {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (const auto& t : mesh.triangles)
@@ -56,7 +56,7 @@ std::map<std::pair<std::uint32_t, std::uint32_t>, int> edgesOf(const geometry::T
   return edges;
 }
 
-int boundaryEdges(const geometry::TriangleMesh& mesh)
+int boundaryEdges(const mesh::TriangleMesh& mesh)
 {
   int count = 0;
   for (const auto& [edge, uses] : edgesOf(mesh))
@@ -72,9 +72,9 @@ TEST(SurfaceReconstruction, WholeSphereIsClosedAndExact)
   const Eigen::Vector3f center(0.3f, -0.2f, 1);
   const SurfaceResult result = reconstruct(sphere(-1, center));
   ASSERT_TRUE(result.status.ok()) << result.status.message;
-  const geometry::TriangleMesh& mesh = result.mesh;
+  const mesh::TriangleMesh& mesh = result.mesh;
   EXPECT_EQ(boundaryEdges(mesh), 0);
-  EXPECT_NEAR(geometry::surfaceArea_m2(mesh), 4 * M_PI * RADIUS_M * RADIUS_M, 3e-4);
+  EXPECT_NEAR(mesh::surfaceArea_m2(mesh), 4 * M_PI * RADIUS_M * RADIUS_M, 3e-4);
   ASSERT_EQ(mesh.normals.size(), mesh.vertices.size());
   ASSERT_EQ(mesh.colors.size(), mesh.vertices.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
@@ -198,10 +198,10 @@ TEST(SurfaceReconstruction, ClosedSurfaceEndsOnTheSupportAndSaysWhatWasNotSeen)
   support.offset_m = -FLOOR_M;
   const SurfaceResult result = reconstruct(sphere(FLOOR_M), options, support);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
-  const geometry::TriangleMesh& mesh = result.mesh;
-  EXPECT_TRUE(checkMesh(mesh).watertight());
+  const mesh::TriangleMesh& mesh = result.mesh;
+  EXPECT_TRUE(mesh::checkMesh(mesh).watertight());
   const double cap_m = RADIUS_M + FLOOR_M;
-  EXPECT_NEAR(checkMesh(mesh).volume_m3,
+  EXPECT_NEAR(mesh::checkMesh(mesh).volume_m3,
               M_PI * (4.0 / 3 * std::pow(RADIUS_M, 3) - cap_m * cap_m * (RADIUS_M - cap_m / 3)),
               0.02 * 4.0 / 3 * M_PI * std::pow(RADIUS_M, 3));
   ASSERT_EQ(mesh.seen.size(), mesh.vertices.size());
@@ -214,8 +214,8 @@ TEST(SurfaceReconstruction, ClosedSurfaceEndsOnTheSupportAndSaysWhatWasNotSeen)
     EXPECT_TRUE(!below || mesh.seen[i] == 0) << mesh.vertices[i].transpose();
   }
   const SurfaceResult open = reconstruct(sphere(FLOOR_M));
-  EXPECT_TRUE(checkMesh(open.mesh).manifold());
-  EXPECT_FALSE(checkMesh(open.mesh).watertight());
+  EXPECT_TRUE(mesh::checkMesh(open.mesh).manifold());
+  EXPECT_FALSE(mesh::checkMesh(open.mesh).watertight());
   EXPECT_TRUE(open.mesh.seen.empty());
 }
 

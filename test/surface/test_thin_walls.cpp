@@ -61,11 +61,11 @@ TEST(ThinWalls, MeshOfSpreadPointsGoesBackToWhereTheyWere)
   const std::vector<float> spread_m = spreadOf(points, normals);
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i] += spread_m[i] * normals[i];
-  geometry::TriangleMesh mesh;
+  mesh::TriangleMesh mesh;
   mesh.vertices = { { 0.011f, 0.011f, 0.001f },  { 0.019f, 0.011f, 0.001f },  { 0.011f, 0.019f, 0.001f },
                     { 0.011f, 0.011f, -0.002f }, { 0.011f, 0.019f, -0.002f }, { 0.019f, 0.011f, -0.002f } };
   mesh.triangles = { { 0, 1, 2 }, { 3, 4, 5 } };
-  geometry::computeNormals(&mesh);
+  mesh::computeNormals(&mesh);
   takeSpreadBack(points, normals, spread_m, &mesh);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
     EXPECT_NEAR(mesh.vertices[i].z(), i < 3 ? 0 : -0.001f, 1e-6f) << i;

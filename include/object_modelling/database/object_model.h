@@ -7,9 +7,9 @@
 
 #include "object_modelling/fusion/cloud_fusion.h"
 #include "object_modelling/geometry/oriented_box.h"
-#include "object_modelling/geometry/triangle_mesh.h"
+#include "object_modelling/mesh/textured_mesh.h"
+#include "object_modelling/mesh/triangle_mesh.h"
 #include "object_modelling/rgbd/keyframe.h"
-#include "object_modelling/surface/textured_mesh.h"
 
 namespace object_modelling::database
 {
@@ -41,8 +41,8 @@ struct ObjectModel
   std::map<std::string, double> quality;           ///< figures by name, units in the names
   std::map<std::string, std::string> provenance;   ///< recording, software version, options
   fusion::FusedCloud cloud;                        ///< in the object frame
-  geometry::TriangleMesh mesh;
-  surface::TexturedMesh textured;     ///< the same mesh with its texture; may be empty
+  mesh::TriangleMesh mesh;
+  mesh::TexturedMesh textured;        ///< the same mesh with its texture; may be empty
   cv::Mat preview_bgr;                ///< CV_8UC3, written as preview.png; may be empty
   cv::Mat turntable_bgr;              ///< CV_8UC3, written as turntable.png; may be empty
   std::string quality_yaml;           ///< written as quality.yaml; may be empty

@@ -43,7 +43,7 @@ struct Comparison
 /// The measure of Aldoma et al. 2015, section 4: the model is registered to a reference (there a laser scan), then the
 /// distances of its points to the reference's surface are taken. It tells how right the surface is that the model has,
 /// not how much of the object it lacks.
-Comparison compareToReference(const std::vector<Eigen::Vector3d>& points_model, const ReferenceSurface& surface,
+Comparison compareToReference(const std::vector<Eigen::Vector3d>& points_model, const mesh::ReferenceSurface& surface,
                               const ComparisonOptions& options, base::JobControl& control);
 
 }  // namespace object_modelling::evaluation

@@ -11,7 +11,7 @@ namespace object_modelling::evaluation
 {
 /// Points (and triangles, if the file has any) of a .ply (float or double), .obj or .pcd file, times `unit_m`. Corners
 /// that no triangle uses are kept. Throws base::Error (NOT_FOUND, BAD_INPUT, INVALID_ARGUMENT for another extension).
-geometry::TriangleMesh readGeometry(const std::string& path, double unit_m = 1);
+mesh::TriangleMesh readGeometry(const std::string& path, double unit_m = 1);
 
 /// 4x4, row by row, white space between the numbers. Throws base::Error (NOT_FOUND; BAD_INPUT: not 16 numbers, not
 /// rigid).

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "object_modelling/base/job_control.h"
-#include "object_modelling/evaluation/reference_surface.h"
+#include "object_modelling/mesh/reference_surface.h"
 
 namespace object_modelling::evaluation
 {
@@ -30,7 +30,8 @@ struct RegistrationResult
 /// orientations (super-Fibonacci spirals, Alexa 2022) on few points, the best refined on more and the closest fit kept,
 /// so that a symmetric shape lands in one of its equal poses. Then, or from `T_start` at once, ICP on the triangles
 /// with Tukey weights whose width follows the median distance. Deterministic on any number of threads.
-RegistrationResult registerToSurface(const std::vector<Eigen::Vector3d>& points_model, const ReferenceSurface& surface,
+RegistrationResult registerToSurface(const std::vector<Eigen::Vector3d>& points_model,
+                                     const mesh::ReferenceSurface& surface,
                                      const std::optional<Eigen::Isometry3d>& T_start,
                                      const RegistrationOptions& options, base::JobControl& control);
 

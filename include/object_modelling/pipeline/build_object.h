@@ -10,7 +10,7 @@
 #include "object_modelling/fusion/cloud_fusion.h"
 #include "object_modelling/keyframes/session_store.h"
 #include "object_modelling/surface/surface_reconstruction.h"
-#include "object_modelling/surface/texturing.h"
+#include "object_modelling/texture/texturing.h"
 
 namespace object_modelling::pipeline
 {
@@ -18,7 +18,7 @@ struct BuildOptions
 {
   fusion::CloudFusionOptions fusion;
   surface::SurfaceOptions surface;
-  surface::TextureOptions texture;
+  texture::TextureOptions texture;
   bool replace = false;     ///< allow another object frame for an object that exists with none of these sessions
   bool make_report = true;  ///< report.html, which takes a few seconds
   /// Sessions of the object that `placements` lacks, from leftOutOf(): with any, the object is partial, and says so.

@@ -7,7 +7,7 @@
 #include "object_modelling/base/job_control.h"
 #include "object_modelling/fusion/cloud_fusion.h"
 #include "object_modelling/geometry/plane.h"
-#include "object_modelling/geometry/triangle_mesh.h"
+#include "object_modelling/mesh/triangle_mesh.h"
 
 namespace object_modelling::surface
 {
@@ -26,7 +26,7 @@ struct SurfaceResult
 {
   base::Status status;  ///< NO_RESULT: too few points for a surface
   /// With normals and vertex colours, in the cloud's frame; an oriented manifold of the observed surface, or all round.
-  geometry::TriangleMesh mesh;
+  mesh::TriangleMesh mesh;
   std::string warning;  ///< empty, or what could not be done as asked for
 };
 

@@ -4,14 +4,14 @@
 #include <visualization_msgs/Marker.h>
 
 #include "../common/cloud_message.h"
+#include "object_modelling/mesh/mesh_files.h"
 #include "object_modelling/ros_bridge/pose_conversion.h"
-#include "object_modelling/surface/mesh_files.h"
 
 namespace object_modelling::nodes
 {
 namespace
 {
-visualization_msgs::Marker meshMarker(const geometry::TriangleMesh& mesh, const std_msgs::Header& header)
+visualization_msgs::Marker meshMarker(const mesh::TriangleMesh& mesh, const std_msgs::Header& header)
 {
   // As triangles, not as mesh resource: rviz draws vertex colours of these, and may run on another machine.
   visualization_msgs::Marker marker;
@@ -58,8 +58,8 @@ void ModelPreview::show(const database::ObjectEntry& object, const std::string& 
   for (const database::ModelSession& session : object.sessions)
     if (session.id == session_id)
       T_session_model = session.T_model_session.inverse();
-  geometry::TriangleMesh mesh = surface::readMesh(object.mesh_path);
-  geometry::transform(T_session_model, &mesh);
+  mesh::TriangleMesh mesh = mesh::readMesh(object.mesh_path);
+  mesh::transform(T_session_model, &mesh);
   std_msgs::Header header;
   header.stamp = ros::Time::now();
   header.frame_id = session_frame_id_;
