@@ -8,7 +8,7 @@
 #include "object_modelling/base/options.h"
 #include "object_modelling/base/status.h"
 #include "object_modelling/geometry/transform.h"
-#include "pair_refinement.h"
+#include "object_modelling/registration/pair_refinement.h"
 
 namespace object_modelling::alignment
 {
@@ -38,8 +38,9 @@ double widthOf(const Eigen::Matrix3Xd& points)
 }
 }  // namespace
 
-PairCandidate alignByPoints(const PartialModel& a, const PartialModel& b, const std::vector<PointPair>& pairs,
-                            const PairAlignmentOptions& options, base::JobControl& control)
+PairCandidate alignByPoints(const registration::PartialModel& a, const registration::PartialModel& b,
+                            const std::vector<PointPair>& pairs, const PairAlignmentOptions& options,
+                            base::JobControl& control)
 {
   base::checked(options);
   control.checkCancelled();
@@ -67,21 +68,21 @@ PairCandidate alignByPoints(const PartialModel& a, const PartialModel& b, const 
     throw refused("the points of the two sessions do not fit each other by " + millimetres(mismatch_m) + " (at most " +
                   millimetres(MAX_MISMATCH_M) + "): point at the same spots, in the same order");
 
-  const Part part_a(a, options.threads), part_b(b, options.threads);
+  const registration::MatchedSurface part_a(a, options.threads), part_b(b, options.threads);
   control.checkCancelled();
-  PairIcpOptions coarse;
+  registration::PairIcpOptions coarse;
   coarse.gate_m = MAX_MOVE_RATIO * part_a.radius_m;
   coarse.last_gate_m = 0.3 * coarse.gate_m;
-  Eigen::Isometry3f refined = alignSurfaces(part_a, part_b, clicked.cast<float>(), coarse);
-  const PartPair pair(part_a, part_b, options.threads);
-  PairQuality quality = refinePose(pair, &refined);
+  Eigen::Isometry3f refined = registration::alignSurfaces(part_a, part_b, clicked.cast<float>(), coarse);
+  const registration::PartPair pair(part_a, part_b, options.threads);
+  registration::PairQuality quality = registration::refinePairPose(pair, &refined);
   const Eigen::Vector3d centre = b.centre().cast<double>();
   const Eigen::Isometry3d T_a_b = geometry::normalised(refined.cast<double>());
   const bool near = geometry::rotationAngle_rad(clicked.inverse() * T_a_b) < MAX_TURN_RAD &&
                     (clicked * centre - T_a_b * centre).norm() < MAX_MOVE_RATIO * part_a.radius_m;
   // Where surfaces would slide away, the person knows better.
   if (!near)
-    quality = measurePair(pair, clicked.cast<float>(), true);
+    quality = registration::measurePair(pair, clicked.cast<float>(), true);
   quality.probability = 1 / (1 + std::exp(-logOdds(quality, options.same_pose_probability)));
   return { ProposalKind::BY_HAND, near ? T_a_b : clicked, quality };
 }

@@ -27,12 +27,12 @@ std::string PoseDifference::text() const
          std::to_string(std::lround(translation_m * 1000)) + " mm";
 }
 
-EdgeGraph::EdgeGraph(const std::vector<PartialModel>& parts, double min_probability,
+EdgeGraph::EdgeGraph(const std::vector<registration::PartialModel>& parts, double min_probability,
                      const std::vector<AlignmentEdge>& edges)
     : edges_(edges), refused_probability_(REFUSED_RATIO * min_probability)
 {
   std::map<std::string, int> index_of;
-  for (const PartialModel& part : parts)
+  for (const registration::PartialModel& part : parts)
   {
     index_of[part.session_id] = static_cast<int>(centres_.size());
     centres_.emplace_back(part.centre().cast<double>());

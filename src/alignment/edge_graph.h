@@ -37,7 +37,8 @@ class EdgeGraph
 {
 public:
   /// `min_probability`: what is needed for an edge to be accepted. One that was refused counts for less.
-  EdgeGraph(const std::vector<PartialModel>& parts, double min_probability, const std::vector<AlignmentEdge>& edges);
+  EdgeGraph(const std::vector<registration::PartialModel>& parts, double min_probability,
+            const std::vector<AlignmentEdge>& edges);
 
   int sessions() const { return static_cast<int>(centres_.size()); }
   int edges() const { return static_cast<int>(edges_.size()); }

@@ -18,7 +18,8 @@ constexpr int MIN_UPHOLDING = 6;
 constexpr std::size_t MAX_PROPOSALS = 10;
 constexpr float MIN_SIDE_RATIO = 0.15F;  // of the part's radius: nearer points say little of rotation
 
-std::optional<Eigen::Isometry3f> poseFrom(const std::vector<PointMatch>& matches, const std::vector<int>& chosen)
+std::optional<Eigen::Isometry3f> poseFrom(const std::vector<registration::PointMatch>& matches,
+                                          const std::vector<int>& chosen)
 {
   Eigen::Matrix3Xd p_a(3, chosen.size()), p_b(3, chosen.size());
   for (std::size_t i = 0; i < chosen.size(); ++i)
@@ -33,17 +34,17 @@ std::optional<Eigen::Isometry3f> poseFrom(const std::vector<PointMatch>& matches
 }
 
 /// Whether the sides of both triangles are as long.
-bool congruent(const PointMatch& x, const PointMatch& y, float min_side_m)
+bool congruent(const registration::PointMatch& x, const registration::PointMatch& y, float min_side_m)
 {
   const float side_a = (x.a - y.a).norm(), side_b = (x.b - y.b).norm();
   return side_a > min_side_m && std::abs(side_a - side_b) < MAX_DISTANCE_M;
 }
 }  // namespace
 
-std::vector<Proposal> proposeByFeatures(const PartPair& pair, std::uint64_t seed)
+std::vector<Proposal> proposeByFeatures(const registration::PartPair& pair, std::uint64_t seed)
 {
-  const Part &a = pair.a, &b = pair.b;
-  const std::vector<PointMatch>& matches = pair.matches;
+  const registration::MatchedSurface &a = pair.a, &b = pair.b;
+  const std::vector<registration::PointMatch>& matches = pair.matches;
   struct Scored
   {
     std::size_t support;
@@ -63,12 +64,12 @@ std::vector<Proposal> proposeByFeatures(const PartPair& pair, std::uint64_t seed
     std::optional<Eigen::Isometry3f> T = poseFrom(matches, three);
     if (!T)
       continue;
-    const std::vector<int> first = upholding(matches, *T, MAX_DISTANCE_M);
+    const std::vector<int> first = registration::upholding(matches, *T, MAX_DISTANCE_M);
     if (static_cast<int>(first.size()) < MIN_UPHOLDING)
       continue;
     T = poseFrom(matches, first);
     if (T)
-      found.push_back({ upholding(matches, *T, MAX_DISTANCE_M).size(), *T });
+      found.push_back({ registration::upholding(matches, *T, MAX_DISTANCE_M).size(), *T });
   }
   std::stable_sort(found.begin(), found.end(), [](const Scored& x, const Scored& y) { return x.support > y.support; });
   std::vector<Proposal> proposals;

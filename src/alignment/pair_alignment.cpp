@@ -5,10 +5,11 @@
 
 #include "object_modelling/alignment/pair_evidence.h"
 #include "object_modelling/base/options.h"
+#include "object_modelling/registration/pair_refinement.h"
+#include "object_modelling/registration/support_contact.h"
 #include "pair_decision.h"
-#include "pair_refinement.h"
+#include "part_alignment.h"
 #include "proposals.h"
-#include "support_contact.h"
 
 namespace object_modelling::alignment
 {
@@ -33,10 +34,11 @@ struct Candidate
 {
   Proposal proposal;
   double score = 0;
-  PairQuality quality;
+  registration::PairQuality quality;
 };
 
-bool same(const Eigen::Isometry3f& x, const Eigen::Isometry3f& y, const Part& b, float rotation_rad, float ratio)
+bool same(const Eigen::Isometry3f& x, const Eigen::Isometry3f& y, const registration::MatchedSurface& b,
+          float rotation_rad, float ratio)
 {
   const Eigen::Isometry3f off = x.inverse() * y;
   // cos(angle) from the trace
@@ -45,8 +47,8 @@ bool same(const Eigen::Isometry3f& x, const Eigen::Isometry3f& y, const Part& b,
 }
 
 /// The best of each group of nearly equal poses, best first.
-std::vector<Candidate> distinctBest(std::vector<Candidate> candidates, const Part& b, float rotation_rad, float ratio,
-                                    const Sieve& sieve)
+std::vector<Candidate> distinctBest(std::vector<Candidate> candidates, const registration::MatchedSurface& b,
+                                    float rotation_rad, float ratio, const Sieve& sieve)
 {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& x, const Candidate& y) { return x.score > y.score; });
@@ -65,16 +67,16 @@ std::vector<Candidate> distinctBest(std::vector<Candidate> candidates, const Par
 }
 
 /// All proposals, each moved into place by the shape alone, and how much of b then lies on a.
-std::vector<Candidate> coarse(const PartPair& pair, const PairAlignmentOptions& options)
+std::vector<Candidate> coarse(const registration::PartPair& pair, const PairAlignmentOptions& options)
 {
-  const Part &a = pair.a, &b = pair.b;
+  const registration::MatchedSurface &a = pair.a, &b = pair.b;
   std::vector<Proposal> proposals = proposeByFeatures(pair, options.seed);
   for (const Proposal& proposal : proposeByStablePlanes(a, b))
     proposals.push_back(proposal);
   for (const Proposal& proposal : proposeByShape(a, b, options.rotations))
     proposals.push_back(proposal);
   std::vector<Candidate> candidates(proposals.size());
-  PairIcpOptions icp;
+  registration::PairIcpOptions icp;
   icp.gate_m = COARSE_GATE_RATIO * a.radius_m;
   icp.last_gate_m = 0.3 * icp.gate_m;
 #pragma omp parallel for schedule(dynamic, 16) num_threads(options.threads)
@@ -82,9 +84,9 @@ std::vector<Candidate> coarse(const PartPair& pair, const PairAlignmentOptions& 
   {
     Proposal& proposal = proposals[i];
     if (proposal.kind != ProposalKind::FEATURES)
-      proposal.T_a_b = alignSurfaces(a, b, proposal.T_a_b, icp);
-    const bool stands = contactGap_m(a, b, proposal.T_a_b) < MAX_COARSE_GAP_RATIO * a.radius_m;
-    candidates[i] = { proposal, stands ? coarseOverlap(a, b, proposal.T_a_b) : 0, {} };
+      proposal.T_a_b = registration::alignSurfaces(a, b, proposal.T_a_b, icp);
+    const bool stands = registration::contactGap_m(a, b, proposal.T_a_b) < MAX_COARSE_GAP_RATIO * a.radius_m;
+    candidates[i] = { proposal, stands ? registration::coarseOverlap(a, b, proposal.T_a_b) : 0, {} };
   }
   candidates.erase(
       std::remove_if(candidates.begin(), candidates.end(),
@@ -94,20 +96,21 @@ std::vector<Candidate> coarse(const PartPair& pair, const PairAlignmentOptions& 
 }
 
 /// Measured; by `many` points, moved by shape and colour first.
-void refine(const PartPair& pair, bool many, const PairAlignmentOptions& options, std::vector<Candidate>* candidates)
+void refine(const registration::PartPair& pair, bool many, const PairAlignmentOptions& options,
+            std::vector<Candidate>* candidates)
 {
 #pragma omp parallel for schedule(dynamic) num_threads(options.threads)
   for (int i = 0; i < static_cast<int>(candidates->size()); ++i)
   {
     Candidate& candidate = (*candidates)[i];
     Eigen::Isometry3f& T = candidate.proposal.T_a_b;
-    candidate.quality = many ? refinePose(pair, &T) : measurePair(pair, T, false);
+    candidate.quality = many ? registration::refinePairPose(pair, &T) : registration::measurePair(pair, T, false);
     candidate.score = logOdds(candidate.quality, options.same_pose_probability);
   }
 }
 /// Refines the candidates finely, keeps those that differ, and decides.
-PairAlignment decided(const PartPair& pair, const PairAlignmentOptions& options, std::vector<Candidate> candidates,
-                      base::JobControl& control)
+PairAlignment decided(const registration::PartPair& pair, const PairAlignmentOptions& options,
+                      std::vector<Candidate> candidates, base::JobControl& control)
 {
   control.checkCancelled();
   refine(pair, true, options, &candidates);
@@ -151,24 +154,26 @@ std::vector<std::string> PairAlignmentOptions::violations() const
   return check.violations();
 }
 
-PairAlignment alignPair(const PartialModel& a, const PartialModel& b, const PairAlignmentOptions& options,
-                        base::JobControl& control)
+PairAlignment alignPair(const registration::PartialModel& a, const registration::PartialModel& b,
+                        const PairAlignmentOptions& options, base::JobControl& control)
 {
   base::checked(options);
   control.checkCancelled();
-  return alignParts(Part(a, options.threads), Part(b, options.threads), options, control);
+  return alignParts(registration::MatchedSurface(a, options.threads), registration::MatchedSurface(b, options.threads),
+                    options, control);
 }
 
-PairAlignment alignParts(const Part& a, const Part& b, const PairAlignmentOptions& options, base::JobControl& control)
+PairAlignment alignParts(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
+                         const PairAlignmentOptions& options, base::JobControl& control)
 {
   control.checkCancelled();
-  if (a.many.empty() || b.many.empty())
+  if (a.fine_samples.empty() || b.fine_samples.empty())
   {
     PairAlignment nothing;
     nothing.reason = "one of the sessions shows no point of the object: select the object, and record it from nearer";
     return nothing;
   }
-  const PartPair pair(a, b, options.threads);
+  const registration::PartPair pair(a, b, options.threads);
   std::vector<Candidate> candidates =
       distinctBest(coarse(pair, options), b, SAME_ROTATION_RAD, SAME_POSITION_RATIO, TO_MEASURE);
   control.checkCancelled();
@@ -179,15 +184,16 @@ PairAlignment alignParts(const Part& a, const Part& b, const PairAlignmentOption
   return decided(pair, options, std::move(candidates), control);
 }
 
-std::optional<PairAlignment> confirmParts(const Part& a, const Part& b, const std::vector<PairCandidate>& known,
-                                          const PairAlignmentOptions& options, base::JobControl& control)
+std::optional<PairAlignment> confirmParts(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
+                                          const std::vector<PairCandidate>& known, const PairAlignmentOptions& options,
+                                          base::JobControl& control)
 {
-  if (known.empty() || a.many.empty() || b.many.empty())
+  if (known.empty() || a.fine_samples.empty() || b.fine_samples.empty())
     return std::nullopt;
   std::vector<Candidate> candidates;
   for (const PairCandidate& candidate : known)
     candidates.push_back({ { candidate.kind, candidate.T_a_b.cast<float>() }, 0, {} });
-  PairAlignment again = decided(PartPair(a, b, options.threads), options, std::move(candidates), control);
+  PairAlignment again = decided(registration::PartPair(a, b, options.threads), options, std::move(candidates), control);
   if (!again.accepted || !same(again.candidates.front().T_a_b.cast<float>(), known.front().T_a_b.cast<float>(), b,
                                DISTINCT_ROTATION_RAD, DISTINCT_POSITION_RATIO))
     return std::nullopt;

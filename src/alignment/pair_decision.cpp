@@ -5,7 +5,8 @@
 #include <sstream>
 
 #include "object_modelling/alignment/pair_evidence.h"
-#include "pair_measure.h"
+#include "object_modelling/geometry/transform.h"
+#include "object_modelling/registration/pair_measure.h"
 
 namespace object_modelling::alignment
 {
@@ -52,7 +53,7 @@ std::string millimetres(double length_m)
 }
 
 /// The figure that speaks most against a candidate.
-std::string whyUnlikely(const PairQuality& quality, const PairAlignmentOptions& options)
+std::string whyUnlikely(const registration::PairQuality& quality, const PairAlignmentOptions& options)
 {
   if (quality.overlap_ratio < options.min_overlap_ratio)
     return "overlap " + percent(quality.overlap_ratio) + " below " + percent(options.min_overlap_ratio) +
@@ -95,13 +96,14 @@ struct Difference
 };
 
 /// One way: b placed by `rival` against a with b placed by `best`.
-Difference strayOf(const Part& a, const Part& b, const Eigen::Isometry3f& best, const Eigen::Isometry3f& rival)
+Difference strayOf(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
+                   const Eigen::Isometry3f& best, const Eigen::Isometry3f& rival)
 {
   const auto reach_m = static_cast<float>(SAME_SHAPE_SPACINGS * std::max(a.model.spacing_m, b.model.spacing_m));
   double stray = 0, unknown = 0, squares = 0, print = 0, count = 0;
   const Eigen::Isometry3f T_b_rival = best.inverse() * rival;
-  const auto look_up =
-      [&](const Part& part, const Eigen::Vector3f& p, const Eigen::Vector3f& n, const Eigen::Vector3f& color)
+  const auto look_up = [&](const registration::MatchedSurface& part, const Eigen::Vector3f& p, const Eigen::Vector3f& n,
+                           const Eigen::Vector3f& color)
   {
     const int j = part.fine.nearest(p);
     if (j < 0)
@@ -116,7 +118,7 @@ Difference strayOf(const Part& a, const Part& b, const Eigen::Isometry3f& best, 
     count += 1;
     return true;
   };
-  for (const int i : b.many)
+  for (const int i : b.fine_samples)
   {
     const Eigen::Vector3f& p = b.model.points[i];
     const Eigen::Vector3f& n = b.model.normals[i];
@@ -125,16 +127,18 @@ Difference strayOf(const Part& a, const Part& b, const Eigen::Isometry3f& best, 
         look_up(b, T_b_rival * p, T_b_rival.linear() * n, color) || look_up(a, rival * p, rival.linear() * n, color);
     if (found)
       continue;
-    const bool through = seenThrough(a.model.views, rival * p) || seenThrough(b.model.views, T_b_rival * p);
+    const bool through =
+        registration::seenThrough(a.model.views, rival * p) || registration::seenThrough(b.model.views, T_b_rival * p);
     (through ? stray : unknown) += 1;
   }
-  const auto all = static_cast<double>(std::max<std::size_t>(1, b.many.size()));
+  const auto all = static_cast<double>(std::max<std::size_t>(1, b.fine_samples.size()));
   const double found = std::max(1.0, count);
   return { stray / all, unknown / all, std::sqrt(squares / found), print / found };
 }
 
 /// Where the object is symmetric, the one that shows more of it has all that the other shows.
-Difference differenceOf(const Part& a, const Part& b, const Eigen::Isometry3f& best, const Eigen::Isometry3f& rival)
+Difference differenceOf(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
+                        const Eigen::Isometry3f& best, const Eigen::Isometry3f& rival)
 {
   const Difference one = strayOf(a, b, best, rival), other = strayOf(a, b, rival, best);
   return { std::min(one.stray_ratio, other.stray_ratio), std::min(one.unknown_ratio, other.unknown_ratio),
@@ -164,7 +168,8 @@ struct Rival
 };
 
 /// Those that make the same object as the best one have one probability in common, that of all of them.
-Rival joinEquivalent(const Part& a, const Part& b, std::vector<PairCandidate>* candidates)
+Rival joinEquivalent(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
+                     std::vector<PairCandidate>* candidates)
 {
   PairCandidate& best = candidates->front();
   double together = best.quality.probability;
@@ -212,12 +217,13 @@ std::string whyAmbiguous(const PairCandidate& best, const PairCandidate& rival, 
 }
 }  // namespace
 
-bool scoreAlike(const PairQuality& best, const PairQuality& rival)
+bool scoreAlike(const registration::PairQuality& best, const registration::PairQuality& rival)
 {
   return logOdds(best, 0.5) - logOdds(rival, 0.5) <= MAX_RIVAL_LOGIT;
 }
 
-void decide(const Part& a, const Part& b, const PairAlignmentOptions& options, PairAlignment* result)
+void decide(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
+            const PairAlignmentOptions& options, PairAlignment* result)
 {
   result->accepted = false;
   if (result->candidates.empty())

@@ -21,14 +21,14 @@ constexpr double EDGE_VARIANCE = 0.0025;                     // of the slopes of
 constexpr double NOT_TURNED_RAD = 0.26, TURNED_RAD = 0.52;   // 15 and 30 deg: between them it may have been
 
 /// How far a pose lets the object turn, from not at all, 1, to as far as needed, 0.
-double notTurned(const PairQuality& quality)
+double notTurned(const registration::PairQuality& quality)
 {
   if (quality.turn_rad < 0)
     return 0;
   return std::clamp((TURNED_RAD - quality.turn_rad) / (TURNED_RAD - NOT_TURNED_RAD), 0.0, 1.0);
 }
 
-double contactFeature(const PairQuality& quality)
+double contactFeature(const registration::PairQuality& quality)
 {
   // What was not turned over hides its foot in both sessions.
   const double gap_m = std::abs(quality.contact_gap_m - notTurned(quality) * std::max(0.0, quality.foot_m));
@@ -70,7 +70,7 @@ const char* nameOf(Feature feature)
   return "features";
 }
 
-FeatureVector featuresOf(const PairQuality& quality)
+FeatureVector featuresOf(const registration::PairQuality& quality)
 {
   FeatureVector result{};
   const auto at = [&](Feature feature) -> double& { return result[static_cast<std::size_t>(feature)]; };
@@ -90,18 +90,18 @@ FeatureVector featuresOf(const PairQuality& quality)
   return result;
 }
 
-bool saysNotTurned(const PairQuality& quality)
+bool saysNotTurned(const registration::PairQuality& quality)
 {
   return notTurned(quality) >= 0.5;
 }
 
-double turnPrior(const PairQuality& quality, double same_pose_probability)
+double turnPrior(const registration::PairQuality& quality, double same_pose_probability)
 {
   return notTurned(quality) *
          std::log(std::max(same_pose_probability, 1e-6) / std::max(1 - same_pose_probability, 1e-6));
 }
 
-FeatureVector contributions(const PairQuality& quality)
+FeatureVector contributions(const registration::PairQuality& quality)
 {
   FeatureVector result = featuresOf(quality);
   for (std::size_t i = 0; i < FEATURE_COUNT; ++i)
@@ -109,7 +109,7 @@ FeatureVector contributions(const PairQuality& quality)
   return result;
 }
 
-double logOdds(const PairQuality& quality, double same_pose_probability)
+double logOdds(const registration::PairQuality& quality, double same_pose_probability)
 {
   double sum = WEIGHT_BIAS + turnPrior(quality, same_pose_probability);
   for (const double contribution : contributions(quality))

@@ -4,20 +4,22 @@ namespace object_modelling::alignment
 {
 const std::vector<PairFigure>& pairFigures()
 {
-  static const std::vector<PairFigure> figures = { { "overlap_ratio", &PairQuality::overlap_ratio },
-                                                   { "fsv_ratio", &PairQuality::fsv_ratio },
-                                                   { "rmse_m", &PairQuality::rmse_m },
-                                                   { "contact_gap_m", &PairQuality::contact_gap_m },
-                                                   { "foot_m", &PairQuality::foot_m, false },
-                                                   { "turn_rad", &PairQuality::turn_rad, false },
-                                                   { "roughness_m", &PairQuality::roughness_m, false },
-                                                   { "color_agreement", &PairQuality::color_agreement },
-                                                   { "texture", &PairQuality::texture },
-                                                   { "light_variance", &PairQuality::light_variance, false },
-                                                   { "edge_agreement", &PairQuality::edge_agreement, false },
-                                                   { "edge_strength", &PairQuality::edge_strength, false },
-                                                   { "features_upheld", &PairQuality::features_upheld, false },
-                                                   { "probability", &PairQuality::probability } };
+  static const std::vector<PairFigure> figures = {
+    { "overlap_ratio", &registration::PairQuality::overlap_ratio },
+    { "fsv_ratio", &registration::PairQuality::fsv_ratio },
+    { "rmse_m", &registration::PairQuality::rmse_m },
+    { "contact_gap_m", &registration::PairQuality::contact_gap_m },
+    { "foot_m", &registration::PairQuality::foot_m, false },
+    { "turn_rad", &registration::PairQuality::turn_rad, false },
+    { "roughness_m", &registration::PairQuality::roughness_m, false },
+    { "color_agreement", &registration::PairQuality::color_agreement },
+    { "texture", &registration::PairQuality::texture },
+    { "light_variance", &registration::PairQuality::light_variance, false },
+    { "edge_agreement", &registration::PairQuality::edge_agreement, false },
+    { "edge_strength", &registration::PairQuality::edge_strength, false },
+    { "features_upheld", &registration::PairQuality::features_upheld, false },
+    { "probability", &registration::PairQuality::probability }
+  };
   return figures;
 }
 

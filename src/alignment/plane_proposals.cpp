@@ -23,7 +23,7 @@ struct Foot
 
 /// Whether the centre projects into the face, or so near to it that an incomplete part could mislead; and the face is
 /// large enough.
-bool standsOn(const Part& part, const std::vector<Eigen::Vector3f>& hull, const Foot& foot)
+bool standsOn(const registration::MatchedSurface& part, const std::vector<Eigen::Vector3f>& hull, const Foot& foot)
 {
   const Eigen::Vector3f x = foot.normal.unitOrthogonal(), y = foot.normal.cross(x);
   Eigen::Vector2f low = Eigen::Vector2f::Constant(1e9F), high = -low;
@@ -41,7 +41,7 @@ bool standsOn(const Part& part, const std::vector<Eigen::Vector3f>& hull, const 
          (high - low).prod() > MIN_FOOT_RATIO * part.radius_m * part.radius_m;
 }
 
-std::vector<Foot> feetOf(const Part& part)
+std::vector<Foot> feetOf(const registration::MatchedSurface& part)
 {
   const geometry::ConvexHull hull = geometry::convexHull(part.model.points);
   std::vector<Eigen::Vector3f> merged;
@@ -65,7 +65,8 @@ std::vector<Foot> feetOf(const Part& part)
 }
 
 /// T_standing_moving for every foot of `moving` on the plane of `standing`, above the middle of the latter.
-std::vector<Eigen::Isometry3f> placements(const Part& standing, const Part& moving)
+std::vector<Eigen::Isometry3f> placements(const registration::MatchedSurface& standing,
+                                          const registration::MatchedSurface& moving)
 {
   std::vector<Eigen::Isometry3f> result;
   if (!standing.model.support_plane)
@@ -88,7 +89,8 @@ std::vector<Eigen::Isometry3f> placements(const Part& standing, const Part& movi
 }
 }  // namespace
 
-std::vector<Proposal> proposeByStablePlanes(const Part& a, const Part& b)
+std::vector<Proposal> proposeByStablePlanes(const registration::MatchedSurface& a,
+                                            const registration::MatchedSurface& b)
 {
   std::vector<Proposal> proposals;
   for (const Eigen::Isometry3f& T_a_b : placements(a, b))

@@ -7,8 +7,8 @@
 
 #include "object_modelling/base/options.h"
 #include "object_modelling/base/status.h"
+#include "part_alignment.h"
 #include "session_graph.h"
-#include "surface_pair.h"
 
 namespace object_modelling::alignment
 {
@@ -22,15 +22,15 @@ std::string joined(const std::vector<std::string>& names)
   return text;
 }
 
-std::vector<std::string> idsOf(const std::vector<PartialModel>& parts)
+std::vector<std::string> idsOf(const std::vector<registration::PartialModel>& parts)
 {
   std::vector<std::string> ids;
-  for (const PartialModel& part : parts)
+  for (const registration::PartialModel& part : parts)
     ids.push_back(part.session_id);
   return ids;
 }
 
-base::Status checked(const std::vector<PartialModel>& parts)
+base::Status checked(const std::vector<registration::PartialModel>& parts)
 {
   if (parts.empty())
     return { base::StatusCode::INVALID_ARGUMENT, "no sessions to align; name at least one" };
@@ -67,21 +67,21 @@ const AlignmentEdge* find(const std::vector<AlignmentEdge>& known_edges, const s
 class Parts
 {
 public:
-  Parts(const std::vector<PartialModel>& models, int threads)
+  Parts(const std::vector<registration::PartialModel>& models, int threads)
       : models_(models), threads_(threads), prepared_(models.size())
   {
   }
-  const Part& at(std::size_t index)
+  const registration::MatchedSurface& at(std::size_t index)
   {
     if (!prepared_[index])
-      prepared_[index] = std::make_unique<Part>(models_[index], threads_);
+      prepared_[index] = std::make_unique<registration::MatchedSurface>(models_[index], threads_);
     return *prepared_[index];
   }
 
 private:
-  const std::vector<PartialModel>& models_;
+  const std::vector<registration::PartialModel>& models_;
   int threads_;
-  std::vector<std::unique_ptr<Part>> prepared_;
+  std::vector<std::unique_ptr<registration::MatchedSurface>> prepared_;
 };
 /// The pair in the order in which it is known, from there if that still holds.
 AlignmentEdge found(const AlignmentEdge* known, Parts& parts, const std::vector<std::string>& ids, std::size_t i,
@@ -118,7 +118,7 @@ std::string nameOf(Decision decision)
   return "automatic";
 }
 
-AlignmentResult placeSessions(const std::vector<PartialModel>& parts, double min_probability,
+AlignmentResult placeSessions(const std::vector<registration::PartialModel>& parts, double min_probability,
                               std::vector<AlignmentEdge> edges)
 {
   AlignmentResult result;
@@ -142,8 +142,9 @@ AlignmentResult placeSessions(const std::vector<PartialModel>& parts, double min
   return result;
 }
 
-AlignmentResult alignSessions(const std::vector<PartialModel>& parts, const std::vector<AlignmentEdge>& known_edges,
-                              const PairAlignmentOptions& options, base::JobControl& control)
+AlignmentResult alignSessions(const std::vector<registration::PartialModel>& parts,
+                              const std::vector<AlignmentEdge>& known_edges, const PairAlignmentOptions& options,
+                              base::JobControl& control)
 {
   base::checked(options);
   AlignmentResult refused;

@@ -252,7 +252,7 @@ void explain(const EdgeGraph& graph, const std::vector<int>& tree, const Placeme
 }
 }  // namespace
 
-std::vector<SessionPlacement> placeByEdges(const std::vector<PartialModel>& parts, double min_probability,
+std::vector<SessionPlacement> placeByEdges(const std::vector<registration::PartialModel>& parts, double min_probability,
                                            std::vector<AlignmentEdge>* edges)
 {
   const EdgeGraph graph(parts, min_probability, *edges);

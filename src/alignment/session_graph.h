@@ -10,7 +10,7 @@ namespace object_modelling::alignment
 /// that alone would be refused carry each other. Sets `used` and `reason` of the edges. Poses are compared where the
 /// object is: session frames are at the cameras. The most probable placement of all that are tried is taken, in the
 /// frame of its first session; a session that is less probable than `min_probability` is left out.
-std::vector<SessionPlacement> placeByEdges(const std::vector<PartialModel>& parts, double min_probability,
+std::vector<SessionPlacement> placeByEdges(const std::vector<registration::PartialModel>& parts, double min_probability,
                                            std::vector<AlignmentEdge>* edges);
 
 }  // namespace object_modelling::alignment

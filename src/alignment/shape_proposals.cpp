@@ -4,7 +4,8 @@
 
 namespace object_modelling::alignment
 {
-std::vector<Proposal> proposeByShape(const Part& a, const Part& b, int rotations)
+std::vector<Proposal> proposeByShape(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
+                                     int rotations)
 {
   constexpr double PHI = 1.4142135623730951, PSI = 1.533751168755204288118041;
   std::vector<Proposal> proposals(rotations);

@@ -32,8 +32,9 @@ enum class Unknown
   DEPTH_DISTORTION
 };
 
-refinement::BundleAdjustmentResult adjusted(const std::string& recording, const rgbd::SensorNoiseModel& model,
-                                            Unknown unknown, const Arguments& arguments, base::JobControl& control)
+bundle_adjustment::BundleAdjustmentResult adjusted(const std::string& recording, const rgbd::SensorNoiseModel& model,
+                                                   Unknown unknown, const Arguments& arguments,
+                                                   base::JobControl& control)
 {
   const std::unique_ptr<source::FrameSource> source = ros_bridge::openRecording(recording);
   TemporaryStore store;

@@ -6,23 +6,23 @@
 
 namespace object_modelling::cli
 {
-nlohmann::json toJson(const refinement::MultiViewIcpResult& result)
+nlohmann::json toJson(const multi_view_icp::MultiViewIcpResult& result)
 {
   nlohmann::json keyframes = nlohmann::json::array(), pairs = keyframes, free = keyframes;
-  for (const refinement::IcpKeyframeResidual& residual : result.residuals)
+  for (const multi_view_icp::IcpKeyframeResidual& residual : result.residuals)
     keyframes.push_back({ { "keyframe_id", residual.keyframe_id },
                           { "point_count", residual.point_count },
                           { "rmse_before_m", residual.rmse_before_m },
                           { "rmse_after_m", residual.rmse_after_m },
                           { "inlier_ratio", residual.inlier_ratio } });
-  for (const refinement::IcpPair& pair : result.pairs)
+  for (const multi_view_icp::IcpPair& pair : result.pairs)
     pairs.push_back({ { "keyframe_a", pair.keyframe_a },
                       { "keyframe_b", pair.keyframe_b },
                       { "overlap_ratio", pair.overlap_ratio },
                       { "point_count", pair.point_count },
                       { "rmse_before_m", pair.rmse_before_m },
                       { "rmse_after_m", pair.rmse_after_m } });
-  for (const refinement::FreeDirection& direction : result.free_directions)
+  for (const multi_view_icp::FreeDirection& direction : result.free_directions)
     free.push_back(
         { { "keyframe_id", direction.keyframe_id },
           { "kind", direction.rotation ? "rotation" : "translation" },
@@ -55,12 +55,12 @@ nlohmann::json toJson(const pipeline::SessionRefinement& refined)
   return json;
 }
 
-std::string toText(const refinement::MultiViewIcpResult& result)
+std::string toText(const multi_view_icp::MultiViewIcpResult& result)
 {
   if (!result.status.ok())
     return "aligned   " + result.status.message + "\n";
   double squared_before = 0, squared_after = 0, count = 0;
-  for (const refinement::IcpPair& pair : result.pairs)
+  for (const multi_view_icp::IcpPair& pair : result.pairs)
   {
     squared_before += pair.point_count * pair.rmse_before_m * pair.rmse_before_m;
     squared_after += pair.point_count * pair.rmse_after_m * pair.rmse_after_m;

@@ -19,11 +19,12 @@ std::ostringstream fixedText(int digits)
 }
 
 /// Root mean square over all observations of the keyframes, by the member that holds a keyframe's own.
-double rmseOf(const std::vector<refinement::KeyframeResidual>& residuals, double refinement::KeyframeResidual::*rmse)
+double rmseOf(const std::vector<bundle_adjustment::KeyframeResidual>& residuals,
+              double bundle_adjustment::KeyframeResidual::*rmse)
 {
   double sum = 0;
   double count = 0;
-  for (const refinement::KeyframeResidual& residual : residuals)
+  for (const bundle_adjustment::KeyframeResidual& residual : residuals)
   {
     sum += residual.observation_count * residual.*rmse * residual.*rmse;
     count += residual.observation_count;
@@ -61,10 +62,10 @@ nlohmann::json toJson(const pipeline::RecordReport& report)
            { "first_problem", report.first_problem } };
 }
 
-nlohmann::json toJson(const refinement::BundleAdjustmentResult& result)
+nlohmann::json toJson(const bundle_adjustment::BundleAdjustmentResult& result)
 {
   nlohmann::json keyframes = nlohmann::json::array();
-  for (const refinement::KeyframeResidual& residual : result.residuals)
+  for (const bundle_adjustment::KeyframeResidual& residual : result.residuals)
     keyframes.push_back({ { "keyframe_id", residual.keyframe_id },
                           { "observation_count", residual.observation_count },
                           { "reprojection_rmse_before_px", residual.reprojection_rmse_before_px },
@@ -72,7 +73,7 @@ nlohmann::json toJson(const refinement::BundleAdjustmentResult& result)
                           { "depth_rmse_before_m", residual.depth_rmse_before_m },
                           { "depth_rmse_after_m", residual.depth_rmse_after_m } });
   nlohmann::json links = nlohmann::json::array();
-  for (const refinement::KeyframeLink& link : result.links)
+  for (const bundle_adjustment::KeyframeLink& link : result.links)
     links.push_back({ { "keyframe_a", link.keyframe_a },
                       { "keyframe_b", link.keyframe_b },
                       { "inlier_count", link.inlier_count },
@@ -131,9 +132,9 @@ std::string toText(const pipeline::RecordReport& report)
   return out.str();
 }
 
-std::string toText(const refinement::BundleAdjustmentResult& result)
+std::string toText(const bundle_adjustment::BundleAdjustmentResult& result)
 {
-  using Residual = refinement::KeyframeResidual;
+  using Residual = bundle_adjustment::KeyframeResidual;
   std::ostringstream out = fixedText(2);
   out << "refined   " << result.residuals.size() << " keyframes, " << result.links.size() << " new links; reprojection "
       << rmseOf(result.residuals, &Residual::reprojection_rmse_before_px) << " -> "
@@ -148,7 +149,7 @@ std::string toText(const refinement::BundleAdjustmentResult& result)
   out << "\n";
   if (!result.status.ok())
     out << "          " << result.status.message << "\n";
-  for (const refinement::KeyframeLink& link : result.links)
+  for (const bundle_adjustment::KeyframeLink& link : result.links)
     if (link.keyframe_b - link.keyframe_a == static_cast<int>(result.residuals.size()) - 1)
       out << "closure   keyframe " << link.keyframe_b << " against " << link.keyframe_a << ": "
           << 1000 * link.translation_error_before_m << " mm, " << DEG_PER_RAD * link.rotation_error_before_rad

@@ -15,8 +15,8 @@ namespace object_modelling::cli
 {
 nlohmann::json toJson(const base::Status& status);
 nlohmann::json toJson(const pipeline::RecordReport& report);
-nlohmann::json toJson(const refinement::BundleAdjustmentResult& result);
-nlohmann::json toJson(const refinement::MultiViewIcpResult& result);
+nlohmann::json toJson(const bundle_adjustment::BundleAdjustmentResult& result);
+nlohmann::json toJson(const multi_view_icp::MultiViewIcpResult& result);
 /// As of bundle adjustment where that took part, with what multi-view ICP says under "multi_view_icp".
 nlohmann::json toJson(const pipeline::SessionRefinement& refined);
 nlohmann::json toJson(const pipeline::SegmentReport& report);
@@ -24,8 +24,8 @@ nlohmann::json toJson(const alignment::AlignmentResult& result);
 nlohmann::json toJson(const pipeline::BuildReport& report);
 
 std::string toText(const pipeline::RecordReport& report);
-std::string toText(const refinement::BundleAdjustmentResult& result);
-std::string toText(const refinement::MultiViewIcpResult& result);
+std::string toText(const bundle_adjustment::BundleAdjustmentResult& result);
+std::string toText(const multi_view_icp::MultiViewIcpResult& result);
 std::string toText(const pipeline::SessionRefinement& refined);
 std::string toText(const pipeline::SegmentReport& report);
 std::string toText(const alignment::AlignmentResult& result);

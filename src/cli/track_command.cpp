@@ -3,8 +3,8 @@
 #include "command.h"
 #include "object_modelling/pipeline/record_session.h"
 #include "object_modelling/pipeline/session_jobs.h"
-#include "object_modelling/refinement/trajectory_correction.h"
 #include "object_modelling/ros_bridge/recording.h"
+#include "object_modelling/source/trajectory_correction.h"
 #include "report_text.h"
 #include "temporary_store.h"
 
@@ -57,7 +57,7 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
   }
   source::writeTrajectory(
       arguments.refined_trajectory,
-      refinement::correctTrajectory(report.trajectory, stamps_s, poses_before, refined.T_session_camera));
+      source::correctTrajectory(report.trajectory, stamps_s, poses_before, refined.T_session_camera));
   return output;
 }
 }  // namespace

@@ -5,6 +5,7 @@
 #include <glog/logging.h>
 
 #include "object_modelling/alignment/alignment_record.h"
+#include "object_modelling/alignment/session_part.h"
 #include "object_modelling/base/options.h"
 #include "session_loading.h"
 
@@ -28,7 +29,8 @@ std::string pairText(const std::string& session_a, const std::string& session_b)
 }
 
 /// Those of the parts' sessions. One that cannot be read costs the work of finding it again, no more.
-std::vector<AlignmentEdge> knownEdges(keyframes::SessionStore& store, const std::vector<alignment::PartialModel>& parts)
+std::vector<AlignmentEdge> knownEdges(keyframes::SessionStore& store,
+                                      const std::vector<registration::PartialModel>& parts)
 {
   const auto given = [&](const std::string& id)
   { return std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return part.session_id == id; }); };
@@ -81,15 +83,16 @@ std::vector<std::string> sessionsOf(keyframes::SessionStore& store, const std::s
   return ids;
 }
 
-std::vector<alignment::PartialModel> loadParts(keyframes::SessionStore& store,
-                                               const std::vector<std::string>& session_ids,
-                                               const alignment::PartialModelOptions& options, base::JobControl& control)
+std::vector<registration::PartialModel> loadParts(keyframes::SessionStore& store,
+                                                  const std::vector<std::string>& session_ids,
+                                                  const alignment::PartialModelOptions& options,
+                                                  base::JobControl& control)
 {
   base::checked(options);
   std::vector<keyframes::Session> sessions;
   for (const std::string& id : session_ids)  // a name that is not known must not cost the work on the others
     sessions.push_back(store.session(id));
-  std::vector<alignment::PartialModel> parts;
+  std::vector<registration::PartialModel> parts;
   for (const keyframes::Session& session : sessions)
   {
     const std::vector<rgbd::Keyframe> keyframes = loadReported(store, session.id, control);
@@ -104,8 +107,9 @@ std::vector<alignment::PartialModel> loadParts(keyframes::SessionStore& store,
   return parts;
 }
 
-alignment::AlignmentResult alignParts(keyframes::SessionStore& store, const std::vector<alignment::PartialModel>& parts,
-                                      const AlignOptions& options, base::JobControl& control)
+alignment::AlignmentResult alignParts(keyframes::SessionStore& store,
+                                      const std::vector<registration::PartialModel>& parts, const AlignOptions& options,
+                                      base::JobControl& control)
 {
   base::checked(options);
   std::vector<AlignmentEdge> known = knownEdges(store, parts);
@@ -189,8 +193,8 @@ void forgetAlignment(keyframes::SessionStore& store, const std::string& session_
   store.updateAlignments({ { session_a, session_b, "" } });
 }
 
-AlignmentEdge acceptByPoints(keyframes::SessionStore& store, const alignment::PartialModel& a,
-                             const alignment::PartialModel& b, const std::vector<alignment::PointPair>& pairs,
+AlignmentEdge acceptByPoints(keyframes::SessionStore& store, const registration::PartialModel& a,
+                             const registration::PartialModel& b, const std::vector<alignment::PointPair>& pairs,
                              const AlignOptions& options, base::JobControl& control)
 {
   AlignmentEdge edge = knownAlignment(store, a.session_id, b.session_id);

@@ -5,7 +5,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "object_modelling/refinement/multi_view_icp.h"
+#include "object_modelling/multi_view_icp/multi_view_icp.h"
 
 namespace object_modelling::pipeline
 {
@@ -40,7 +40,7 @@ std::string leftOutText(const JointRefinement& joint, const std::vector<rgbd::Ke
                              names;
 }
 
-std::string unconvergedText(const refinement::MultiViewIcpResult& refined)
+std::string unconvergedText(const multi_view_icp::MultiViewIcpResult& refined)
 {
   std::ostringstream text;
   text << std::fixed << std::setprecision(2) << "the sessions' places against each other are not settled: after "
@@ -53,13 +53,13 @@ std::string unconvergedText(const refinement::MultiViewIcpResult& refined)
 std::string refineJointly(const JointRefinement& joint, std::vector<rgbd::Keyframe>* keyframes,
                           base::JobControl& control)
 {
-  refinement::MultiViewIcpOptions options;
+  multi_view_icp::MultiViewIcpOptions options;
   options.object_only = true;
   options.start_error_m = AFTER_ALIGNMENT_M;
   options.color_weight = 0;
   options.max_partners = MAX_PARTNERS;
   options.bodies = joint.sessions;
-  const refinement::MultiViewIcpResult refined = refinement::refineByMultiViewIcp(*keyframes, options, control);
+  const multi_view_icp::MultiViewIcpResult refined = multi_view_icp::refineByMultiViewIcp(*keyframes, options, control);
   if (!refined.status.ok())
     return "sessions are placed as aligned, not refined together: " + refined.status.message;
   for (std::size_t i = 0; i < keyframes->size(); ++i)

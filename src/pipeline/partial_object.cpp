@@ -21,18 +21,18 @@ void append(const std::string& part, std::string* text)
 }
 
 /// How well a session serves alone: first whether the object's model has it already, then the surface seen in m2.
-std::pair<bool, double> worthAlone(keyframes::SessionStore& store, const alignment::PartialModel& part)
+std::pair<bool, double> worthAlone(keyframes::SessionStore& store, const registration::PartialModel& part)
 {
   const double area_m2 = static_cast<double>(part.points.size()) * part.spacing_m * part.spacing_m;
   return { store.session(part.session_id).T_model_session.has_value(), area_m2 };
 }
 
-void placeBestAlone(keyframes::SessionStore& store, const std::vector<alignment::PartialModel>& parts,
+void placeBestAlone(keyframes::SessionStore& store, const std::vector<registration::PartialModel>& parts,
                     AlignmentResult* aligned)
 {
   std::pair<bool, double> best_worth;
-  const alignment::PartialModel* best = nullptr;
-  for (const alignment::PartialModel& part : parts)
+  const registration::PartialModel* best = nullptr;
+  for (const registration::PartialModel& part : parts)
   {
     const std::pair<bool, double> worth = worthAlone(store, part);
     if (best != nullptr && worth <= best_worth)
@@ -49,7 +49,7 @@ void placeBestAlone(keyframes::SessionStore& store, const std::vector<alignment:
 }
 }  // namespace
 
-void require(Required required, keyframes::SessionStore& store, const std::vector<alignment::PartialModel>& parts,
+void require(Required required, keyframes::SessionStore& store, const std::vector<registration::PartialModel>& parts,
              AlignmentResult* aligned)
 {
   const bool none_fit = aligned->status.code == base::StatusCode::NO_RESULT && aligned->placements.empty();

@@ -84,7 +84,7 @@ void emitRefinement(YAML::Emitter& out, const RefinementReport& report)
   put(out, "rejected_link_count", report.rejected_link_count);
   out << YAML::Key << "left_out" << YAML::Value << YAML::Flow << report.left_out;
   out << YAML::Key << "keyframes" << YAML::Value << YAML::BeginSeq;
-  for (const refinement::KeyframeResidual& residual : report.residuals)
+  for (const bundle_adjustment::KeyframeResidual& residual : report.residuals)
   {
     out << YAML::Flow << YAML::BeginMap;
     put(out, "keyframe_id", residual.keyframe_id);

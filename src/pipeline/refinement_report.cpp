@@ -6,7 +6,7 @@
 
 namespace object_modelling::pipeline
 {
-std::string refinementReportYaml(const refinement::BundleAdjustmentResult& result)
+std::string refinementReportYaml(const bundle_adjustment::BundleAdjustmentResult& result)
 {
   YAML::Emitter out;
   out << YAML::BeginMap;
@@ -19,7 +19,7 @@ std::string refinementReportYaml(const refinement::BundleAdjustmentResult& resul
   out << YAML::Key << "rejected_link_count" << YAML::Value << result.rejected_links.size();
   out << YAML::Key << "left_out" << YAML::Value << YAML::Flow << result.left_out;
   out << YAML::Key << "keyframes" << YAML::Value << YAML::BeginSeq;
-  for (const refinement::KeyframeResidual& residual : result.residuals)
+  for (const bundle_adjustment::KeyframeResidual& residual : result.residuals)
   {
     out << YAML::Flow << YAML::BeginMap;
     out << YAML::Key << "keyframe_id" << YAML::Value << residual.keyframe_id;
@@ -50,7 +50,7 @@ std::optional<RefinementReport> readRefinementReport(const std::string& yaml)
     report.left_out = node["left_out"].as<std::vector<int>>();
     for (const YAML::Node& keyframe : node["keyframes"])
     {
-      refinement::KeyframeResidual residual;
+      bundle_adjustment::KeyframeResidual residual;
       residual.keyframe_id = keyframe["keyframe_id"].as<int>();
       residual.observation_count = keyframe["observation_count"].as<int>();
       residual.reprojection_rmse_before_px = keyframe["reprojection_rmse_before_px"].as<double>();

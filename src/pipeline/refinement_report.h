@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "object_modelling/refinement/bundle_adjustment.h"
+#include "object_modelling/bundle_adjustment/bundle_adjustment.h"
 
 namespace object_modelling::pipeline
 {
@@ -18,11 +18,11 @@ struct RefinementReport
   Eigen::Vector2d color_offset_px = Eigen::Vector2d::Zero();
   int link_count = 0, rejected_link_count = 0;
   std::vector<int> left_out;
-  std::vector<refinement::KeyframeResidual> residuals;
+  std::vector<bundle_adjustment::KeyframeResidual> residuals;
 };
 
 /// YAML text that is stored with the session (keyframes::Session::refinement_report).
-std::string refinementReportYaml(const refinement::BundleAdjustmentResult& result);
+std::string refinementReportYaml(const bundle_adjustment::BundleAdjustmentResult& result);
 /// Nothing for an empty text: never refined. Throws base::Error (BAD_INPUT).
 std::optional<RefinementReport> readRefinementReport(const std::string& yaml);
 

@@ -15,10 +15,10 @@ constexpr double WORSE_RATIO = 1.05;  // scores nearer than this are equal
 constexpr char LIVE[] = "live";
 
 /// The last, which is what was asked for, unless others fit better; those before it are simpler.
-std::size_t bestOf(const std::vector<refinement::PoseScore>& scores)
+std::size_t bestOf(const std::vector<multi_view_icp::PoseScore>& scores)
 {
   double least = scores.front().total();
-  for (const refinement::PoseScore& score : scores)
+  for (const multi_view_icp::PoseScore& score : scores)
     least = std::min(least, score.total());
   std::size_t best = scores.size() - 1;
   while (best > 0 && scores[best].total() > WORSE_RATIO * least)
@@ -97,7 +97,7 @@ void Refiner::place(const Candidate& candidate)
 
 void Refiner::adjustBundle()
 {
-  refined_.bundle_adjustment = refinement::adjustBundle(keyframes_, options_.bundle_adjustment, control_);
+  refined_.bundle_adjustment = bundle_adjustment::adjustBundle(keyframes_, options_.bundle_adjustment, control_);
   refined_.status = refined_.bundle_adjustment->status;
   if (!refined_.status.ok())
     return;
@@ -112,13 +112,13 @@ void Refiner::adjustBundle()
 void Refiner::alignSurfaces()
 {
   const bool adjusted = candidates_.size() > 1;
-  refinement::MultiViewIcpOptions options = options_.multi_view_icp;
+  multi_view_icp::MultiViewIcpOptions options = options_.multi_view_icp;
   if (adjusted)
   {
     options.start_error_m = std::min(AFTER_BUNDLE_M, options.start_error_m);
     options.color_offset_px = refined_.bundle_adjustment->color_offset_px;
   }
-  refinement::MultiViewIcpResult result = refinement::refineByMultiViewIcp(keyframes_, options, control_);
+  multi_view_icp::MultiViewIcpResult result = multi_view_icp::refineByMultiViewIcp(keyframes_, options, control_);
   if (adjusted && !corrected() && drivesSurfacesApart())
     alignSurfacesAlone();
   if (result.status.ok())
@@ -132,25 +132,25 @@ void Refiner::alignSurfaces()
 void Refiner::alignSurfacesAlone()
 {
   place(candidates_.front());
-  alone_ = refinement::refineByMultiViewIcp(keyframes_, options_.multi_view_icp, control_);
+  alone_ = multi_view_icp::refineByMultiViewIcp(keyframes_, options_.multi_view_icp, control_);
   if (alone_->status.ok())
     candidates_.push_back(
         candidateOf(nameOf(RefinementMethod::MULTI_VIEW_ICP), *alone_, options_.multi_view_icp.color_offset_px));
 }
 
-std::vector<refinement::PoseScore> Refiner::scores() const
+std::vector<multi_view_icp::PoseScore> Refiner::scores() const
 {
-  std::vector<refinement::PoseSet> sets;
+  std::vector<multi_view_icp::PoseSet> sets;
   for (const Candidate& candidate : candidates_)
     sets.push_back(candidate.poses);
-  refinement::PoseComparisonOptions options;
+  multi_view_icp::PoseComparisonOptions options;
   options.object_only = objectOnly();
-  return refinement::comparePoses(keyframes_, sets, options, control_);
+  return multi_view_icp::comparePoses(keyframes_, sets, options, control_);
 }
 
 bool Refiner::drivesSurfacesApart() const
 {
-  const std::vector<refinement::PoseScore> both = scores();
+  const std::vector<multi_view_icp::PoseScore> both = scores();
   return both[1].depth > WORSE_RATIO * both[0].depth;
 }
 
@@ -159,7 +159,7 @@ void Refiner::choose()
   std::size_t best = candidates_.size() - 1;
   if (candidates_.size() > 1 && !corrected())
   {
-    const std::vector<refinement::PoseScore> judged = scores();
+    const std::vector<multi_view_icp::PoseScore> judged = scores();
     for (std::size_t i = 0; i < candidates_.size(); ++i)
       refined_.compared.push_back({ candidates_[i].by, judged[i] });
     best = bestOf(judged);

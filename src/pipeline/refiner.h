@@ -24,7 +24,7 @@ private:
   struct Candidate
   {
     std::string by;
-    refinement::PoseSet poses;
+    multi_view_icp::PoseSet poses;
     std::vector<geometry::Matrix6d> covariance;
   };
   template <typename Result>
@@ -39,7 +39,7 @@ private:
   /// Whether depths agree less after bundle adjustment than before.
   bool drivesSurfacesApart() const;
   void choose();
-  std::vector<refinement::PoseScore> scores() const;
+  std::vector<multi_view_icp::PoseScore> scores() const;
   void place(const Candidate& candidate);
 
   RefinementOptions options_;
@@ -47,7 +47,7 @@ private:
   base::JobControl& control_;
   SessionRefinement refined_;
   std::vector<Candidate> candidates_;  ///< that came, and of each step that succeeded; what was asked for last
-  std::optional<refinement::MultiViewIcpResult> alone_;
+  std::optional<multi_view_icp::MultiViewIcpResult> alone_;
 };
 
 }  // namespace object_modelling::pipeline

@@ -46,8 +46,9 @@ SegmentReport segmentSession(keyframes::SessionStore& store, const std::string& 
   return report;
 }
 
-refinement::BundleAdjustmentResult refineSession(keyframes::SessionStore& store, const std::string& session_id,
-                                                 refinement::BundleAdjustmentOptions options, base::JobControl& control)
+bundle_adjustment::BundleAdjustmentResult refineSession(keyframes::SessionStore& store, const std::string& session_id,
+                                                        bundle_adjustment::BundleAdjustmentOptions options,
+                                                        base::JobControl& control)
 {
   RefinementOptions by_bundle;
   by_bundle.method = RefinementMethod::BUNDLE_ADJUSTMENT;
@@ -55,7 +56,7 @@ refinement::BundleAdjustmentResult refineSession(keyframes::SessionStore& store,
   const SessionRefinement refined = refineSessionBy(store, session_id, by_bundle, control);
   if (refined.bundle_adjustment)
     return *refined.bundle_adjustment;
-  refinement::BundleAdjustmentResult result;
+  bundle_adjustment::BundleAdjustmentResult result;
   result.status = refined.status;
   return result;
 }

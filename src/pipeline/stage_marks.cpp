@@ -19,7 +19,7 @@ void add(YAML::Emitter* out, const std::string& key, double value)
   *out << YAML::Key << key << YAML::Value << base::yamlNumber(value);
 }
 
-void add(YAML::Emitter* out, const refinement::BundleAdjustmentOptions& options)
+void add(YAML::Emitter* out, const bundle_adjustment::BundleAdjustmentOptions& options)
 {
   *out << YAML::Key << "bundle_adjustment" << YAML::Value << YAML::BeginMap;
   add(out, "pixel_sigma_px", options.pixel_sigma_px);
@@ -35,7 +35,7 @@ void add(YAML::Emitter* out, const refinement::BundleAdjustmentOptions& options)
   *out << YAML::EndMap;
 }
 
-void add(YAML::Emitter* out, const refinement::MultiViewIcpOptions& options)
+void add(YAML::Emitter* out, const multi_view_icp::MultiViewIcpOptions& options)
 {
   *out << YAML::Key << "multi_view_icp" << YAML::Value << YAML::BeginMap;
   add(out, "object_only", options.object_only);

@@ -46,7 +46,7 @@ std::vector<Eigen::Vector2f> detectFeatures(const cv::Mat& gray, const cv::Mat& 
   return features;
 }
 
-std::vector<Eigen::Vector2f> detectFeatures(const ImagePyramid& pyramid, const cv::Mat& allowed,
+std::vector<Eigen::Vector2f> detectFeatures(const registration::ImagePyramid& pyramid, const cv::Mat& allowed,
                                             const std::vector<Eigen::Vector2f>& occupied,
                                             const FeatureDetectorOptions& options)
 {

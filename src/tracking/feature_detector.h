@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
-#include "image_pyramid.h"
+#include "object_modelling/registration/image_pyramid.h"
 
 namespace object_modelling::tracking
 {
@@ -27,7 +27,7 @@ std::vector<Eigen::Vector2f> detectFeatures(const cv::Mat& gray, const cv::Mat& 
 
 /// The same on the next level of the pyramid for images larger than about 400 px, four times as fast: a patch can be
 /// found again wherever there is texture, it need not sit on the corner exactly. Positions are of the full resolution.
-std::vector<Eigen::Vector2f> detectFeatures(const ImagePyramid& pyramid, const cv::Mat& allowed,
+std::vector<Eigen::Vector2f> detectFeatures(const registration::ImagePyramid& pyramid, const cv::Mat& allowed,
                                             const std::vector<Eigen::Vector2f>& occupied,
                                             const FeatureDetectorOptions& options);
 

@@ -51,7 +51,7 @@ double medianDepth_m(const std::vector<Sighting>& sightings)
 }
 }  // namespace
 
-NewKeyframe makeKeyframe(int id, const rgbd::Frame& frame, const ImagePyramid& pyramid,
+NewKeyframe makeKeyframe(int id, const rgbd::Frame& frame, const registration::ImagePyramid& pyramid,
                          const Eigen::Isometry3d& T_session_camera, const std::vector<LandmarkMatch>& matches,
                          bool object_only, const FeatureDetectorOptions& options, std::uint64_t* next_landmark_id)
 {

@@ -35,10 +35,10 @@ const WideBaselineFeatures& MapKeyframe::features(FeatureKind kind) const
   return *features;
 }
 
-const DenseReference& MapKeyframe::dense() const
+const registration::DenseReference& MapKeyframe::dense() const
 {
   if (!dense_)
-    dense_.emplace(DensePyramid(wholeFrame(), pyramid));
+    dense_.emplace(registration::DensePyramid(wholeFrame(), pyramid));
   return *dense_;
 }
 

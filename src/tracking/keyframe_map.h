@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
-#include "dense_pyramid.h"
+#include "object_modelling/registration/dense_pyramid.h"
 #include "object_modelling/rgbd/keyframe.h"
 #include "wide_baseline_features.h"
 
@@ -43,7 +43,7 @@ struct MapKeyframe
   const WideBaselineFeatures& features(FeatureKind kind) const;
   bool hasFeatures(FeatureKind kind) const { return features_[static_cast<std::size_t>(kind)].has_value(); }
   /// Points for dense alignment, made when first asked for.
-  const DenseReference& dense() const;
+  const registration::DenseReference& dense() const;
 
   /// Halves what a keyframe keeps in memory: depth goes to 16 bits, the full-resolution image is shared.
   void compact();
@@ -52,7 +52,7 @@ struct MapKeyframe
 private:
   cv::Mat compact_depth_;                                                // CV_16UC1
   mutable std::array<std::optional<WideBaselineFeatures>, 2> features_;  // by kind
-  mutable std::optional<DenseReference> dense_;
+  mutable std::optional<registration::DenseReference> dense_;
 };
 
 /// Small normalised image of a view for MapKeyframe::thumbnail.

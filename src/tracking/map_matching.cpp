@@ -3,8 +3,8 @@
 #include <cmath>
 #include <unordered_set>
 
-#include "depth_sampling.h"
-#include "patch_refinement.h"
+#include "object_modelling/registration/patch_refinement.h"
+#include "object_modelling/rgbd/depth_sampling.h"
 
 namespace object_modelling::tracking
 {
@@ -37,7 +37,7 @@ bool occluded(const rgbd::Frame& frame, const Eigen::Vector2d& pixel, double z_m
 }
 }  // namespace
 
-std::vector<LandmarkMatch> inliersOf(const std::vector<LandmarkMatch>& matches, const PoseEstimate& pose)
+std::vector<LandmarkMatch> inliersOf(const std::vector<LandmarkMatch>& matches, const registration::PoseEstimate& pose)
 {
   std::vector<LandmarkMatch> inliers;
   for (std::size_t i = 0; i < matches.size(); ++i)
@@ -46,15 +46,15 @@ std::vector<LandmarkMatch> inliersOf(const std::vector<LandmarkMatch>& matches, 
   return inliers;
 }
 
-std::vector<Correspondence> correspondencesOf(const std::vector<LandmarkMatch>& matches)
+std::vector<registration::Correspondence> correspondencesOf(const std::vector<LandmarkMatch>& matches)
 {
-  std::vector<Correspondence> correspondences;
+  std::vector<registration::Correspondence> correspondences;
   correspondences.reserve(matches.size());
   for (const LandmarkMatch& match : matches)
     correspondences.push_back(match.correspondence);
   return correspondences;
 }
-MapMatches matchMap(const KeyframeMap& map, const rgbd::Frame& frame, const ImagePyramid& pyramid,
+MapMatches matchMap(const KeyframeMap& map, const rgbd::Frame& frame, const registration::ImagePyramid& pyramid,
                     const Eigen::Isometry3d& T_session_camera,
                     const std::unordered_map<std::uint64_t, Eigen::Vector2f>& flow_pixels,
                     const MapMatchingOptions& options)
@@ -82,17 +82,18 @@ MapMatches matchMap(const KeyframeMap& map, const rgbd::Frame& frame, const Imag
       ++result.predicted_count;
       const auto flow = flow_pixels.find(sighting.landmark_id);
       const bool has_flow = flow != flow_pixels.end();
-      const Eigen::Matrix3d H = patchHomography(K, T_current_reference.linear(), T_current_reference.translation(),
-                                                sighting.n_keyframe, sighting.p_keyframe);
-      const PatchRefinement refined = refinePatch(reference->pyramid, pyramid.levels(), H, sighting.pixel,
-                                                  has_flow ? flow->second : Eigen::Vector2f(predicted.cast<float>()),
-                                                  has_flow ? FLOW_ERROR_PX : options.prediction_error_px);
+      const Eigen::Matrix3d H = registration::patchHomography(
+          K, T_current_reference.linear(), T_current_reference.translation(), sighting.n_keyframe, sighting.p_keyframe);
+      const registration::PatchRefinement refined =
+          registration::refinePatch(reference->pyramid, pyramid.levels(), H, sighting.pixel,
+                                    has_flow ? flow->second : Eigen::Vector2f(predicted.cast<float>()),
+                                    has_flow ? FLOW_ERROR_PX : options.prediction_error_px);
       if (!refined.accepted)
         continue;
       ++found;
       result.matches.push_back({ sighting.landmark_id,
                                  { reference->T_session_camera * sighting.p_keyframe, refined.pixel.cast<double>(),
-                                   sampleDepth_m(frame.depth_m, refined.pixel.x(), refined.pixel.y()) },
+                                   rgbd::sampleDepth_m(frame.depth_m, refined.pixel.x(), refined.pixel.y()) },
                                  reference->trusted });
     }
     if (nearest && !reference->sightings.empty())

@@ -3,9 +3,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "image_pyramid.h"
 #include "keyframe_map.h"
-#include "pose_estimation.h"
+#include "object_modelling/registration/image_pyramid.h"
+#include "object_modelling/registration/pose_estimation.h"
 
 namespace object_modelling::tracking
 {
@@ -13,12 +13,12 @@ namespace object_modelling::tracking
 struct LandmarkMatch
 {
   std::uint64_t landmark_id = 0;
-  Correspondence correspondence;
+  registration::Correspondence correspondence;
   bool trusted = true;  ///< its place comes from a trusted keyframe
 };
 
-std::vector<LandmarkMatch> inliersOf(const std::vector<LandmarkMatch>& matches, const PoseEstimate& pose);
-std::vector<Correspondence> correspondencesOf(const std::vector<LandmarkMatch>& matches);
+std::vector<LandmarkMatch> inliersOf(const std::vector<LandmarkMatch>& matches, const registration::PoseEstimate& pose);
+std::vector<registration::Correspondence> correspondencesOf(const std::vector<LandmarkMatch>& matches);
 
 struct MapMatches
 {
@@ -36,7 +36,7 @@ struct MapMatchingOptions
 
 /// Projective patch refinement (Aldoma et al. 2015, section 3.1): the landmarks of the nearest keyframes, predicted by
 /// a pose, found sub-pixel by their warped patches. `flow_pixels` are better starts where optical flow knows them.
-MapMatches matchMap(const KeyframeMap& map, const rgbd::Frame& frame, const ImagePyramid& pyramid,
+MapMatches matchMap(const KeyframeMap& map, const rgbd::Frame& frame, const registration::ImagePyramid& pyramid,
                     const Eigen::Isometry3d& T_session_camera,
                     const std::unordered_map<std::uint64_t, Eigen::Vector2f>& flow_pixels,
                     const MapMatchingOptions& options);

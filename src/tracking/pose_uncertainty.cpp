@@ -61,16 +61,17 @@ geometry::Matrix6d systematicCovariance(double depth_m, double error_rad)
   return isotropic(shared_rad * depth_m, shared_rad);
 }
 
-QuadraticTerm predictionTerm(const Eigen::Isometry3d& T_session_camera, const geometry::Matrix6d& covariance_before,
-                             const geometry::Matrix6d& covariance_of_motion)
+registration::QuadraticTerm predictionTerm(const Eigen::Isometry3d& T_session_camera,
+                                           const geometry::Matrix6d& covariance_before,
+                                           const geometry::Matrix6d& covariance_of_motion)
 {
-  QuadraticTerm term;
+  registration::QuadraticTerm term;
   term.T_camera_session = T_session_camera.inverse();
   term.equations.A = (inCameraFrame(covariance_before, T_session_camera) + covariance_of_motion).inverse();
   return term;
 }
 
-bool contradicts(const PoseEstimate& pose, const QuadraticTerm& prediction)
+bool contradicts(const registration::PoseEstimate& pose, const registration::QuadraticTerm& prediction)
 {
   constexpr double MAX_SQUARED_SIGMAS = 50;
   const geometry::Vector6d off =

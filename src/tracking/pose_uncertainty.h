@@ -3,7 +3,7 @@
 #include <string>
 
 #include "object_modelling/geometry/transform.h"
-#include "pose_estimation.h"
+#include "object_modelling/registration/pose_estimation.h"
 
 namespace object_modelling::tracking
 {
@@ -24,12 +24,13 @@ geometry::Matrix6d robotMotionCovariance(double translation_sigma_m, double rota
 geometry::Matrix6d systematicCovariance(double depth_m, double error_rad);
 
 /// A predicted pose as least squares: what was known before (session frame), and of the motion since (camera frame).
-QuadraticTerm predictionTerm(const Eigen::Isometry3d& T_session_camera, const geometry::Matrix6d& covariance_before,
-                             const geometry::Matrix6d& covariance_of_motion);
+registration::QuadraticTerm predictionTerm(const Eigen::Isometry3d& T_session_camera,
+                                           const geometry::Matrix6d& covariance_before,
+                                           const geometry::Matrix6d& covariance_of_motion);
 
 /// Whether a pose is where a prediction says it is not: 50 is far beyond all quantiles of chi-squared with 6 degrees of
 /// freedom.
-bool contradicts(const PoseEstimate& pose, const QuadraticTerm& prediction);
+bool contradicts(const registration::PoseEstimate& pose, const registration::QuadraticTerm& prediction);
 
 /// Why a pose is not known in all directions, given its covariance in the camera frame; empty if it is.
 std::string unconstrained(const geometry::Matrix6d& covariance, double depth_m);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "depth_sampling.h"
+#include "object_modelling/rgbd/depth_sampling.h"
 
 namespace object_modelling::tracking
 {
@@ -65,7 +65,7 @@ Relocalisation relocalise(const rgbd::Frame& frame, const KeyframeMap& map,
     best.reason = "only " + std::to_string(features.pixels.size()) + " features in view: covered, dark or plain";
     return best;
   }
-  PoseEstimationOptions pose_options;
+  registration::PoseEstimationOptions pose_options;
   pose_options.max_reprojection_error_px = options.max_reprojection_error_px;
   pose_options.pixel_sigma_px = 1.0;
   pose_options.max_hypotheses = 500;
@@ -78,7 +78,7 @@ Relocalisation relocalise(const rgbd::Frame& frame, const KeyframeMap& map,
     if (!keyframe->hasFeatures(options.features) && detections++ >= options.max_detections)
       continue;
     const WideBaselineFeatures& known = keyframe->features(options.features);
-    std::vector<Correspondence> correspondences;
+    std::vector<registration::Correspondence> correspondences;
     for (const features::DescriptorMatch& match : matchFeatures(features, known))
     {
       if (std::isnan(known.depths_m[match.b]))
@@ -89,7 +89,8 @@ Relocalisation relocalise(const rgbd::Frame& frame, const KeyframeMap& map,
             features.pixels[match.a].cast<double>(), features.depths_m[match.a] });
     }
     most_matches = std::max(most_matches, correspondences.size());
-    PoseEstimate pose = estimatePose(correspondences, frame.camera, keyframe->T_session_camera, seed, pose_options);
+    registration::PoseEstimate pose =
+        registration::estimatePose(correspondences, frame.camera, keyframe->T_session_camera, seed, pose_options);
     most_inliers = std::max(most_inliers, pose.inlier_count);
     if (!pose.valid || pose.inlier_count < options.min_inliers ||
         pose.inlier_count < options.min_inlier_ratio * static_cast<double>(correspondences.size()) ||

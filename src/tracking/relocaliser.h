@@ -6,7 +6,7 @@
 #include <string>
 
 #include "keyframe_map.h"
-#include "pose_estimation.h"
+#include "object_modelling/registration/pose_estimation.h"
 
 namespace object_modelling::tracking
 {
@@ -26,7 +26,7 @@ struct RelocaliserOptions
 struct Relocalisation
 {
   const MapKeyframe* keyframe = nullptr;  ///< the view that was recognised
-  PoseEstimate pose;
+  registration::PoseEstimate pose;
   std::string reason;  ///< why nothing was found
 };
 

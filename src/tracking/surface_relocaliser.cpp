@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "dense_quality.h"
+#include "object_modelling/registration/dense_quality.h"
 
 namespace object_modelling::tracking
 {
@@ -19,9 +19,9 @@ struct Candidate
 };
 }  // namespace
 
-std::optional<DenseAlignment> relocaliseBySurfaces(const DensePyramid& frame, const cv::Mat& thumbnail,
-                                                   const KeyframeMap& map,
-                                                   const std::optional<Eigen::Isometry3d>& T_session_camera_hint)
+std::optional<registration::DenseAlignment> relocaliseBySurfaces(
+    const registration::DensePyramid& frame, const cv::Mat& thumbnail, const KeyframeMap& map,
+    const std::optional<Eigen::Isometry3d>& T_session_camera_hint)
 {
   std::vector<Candidate> candidates;
   if (T_session_camera_hint)
@@ -30,27 +30,28 @@ std::optional<DenseAlignment> relocaliseBySurfaces(const DensePyramid& frame, co
         candidates.push_back({ near, *T_session_camera_hint });
   for (const MapKeyframe* similar : map.similarImages(thumbnail, SIMILAR_CANDIDATES))
     candidates.push_back({ similar, similar->T_session_camera });
-  DenseAlignmentOptions coarse;
+  registration::DenseAlignmentOptions coarse;
   coarse.finest_level = 1;
   coarse.max_iterations = 15;
-  DenseAlignment best;
+  registration::DenseAlignment best;
   const MapKeyframe* best_keyframe = nullptr;
   for (const Candidate& candidate : candidates)
   {
-    DenseAlignment aligned = alignDense(candidate.keyframe->dense(), candidate.keyframe->T_session_camera, frame,
-                                        candidate.T_session_camera_start, geometry::Matrix6d::Zero(), coarse);
-    if (best_keyframe && quality(aligned.term) <= quality(best.term))
+    registration::DenseAlignment aligned =
+        registration::alignDense(candidate.keyframe->dense(), candidate.keyframe->T_session_camera, frame,
+                                 candidate.T_session_camera_start, geometry::Matrix6d::Zero(), coarse);
+    if (best_keyframe && registration::quality(aligned.term) <= registration::quality(best.term))
       continue;
     best = std::move(aligned);
     best_keyframe = candidate.keyframe;
   }
   if (!best_keyframe)
     return std::nullopt;
-  DenseAlignmentOptions fine;
+  registration::DenseAlignmentOptions fine;
   fine.coarsest_level = 0;
-  best = alignDense(best_keyframe->dense(), best_keyframe->T_session_camera, frame, best.T_session_camera,
-                    geometry::Matrix6d::Zero(), fine);
-  if (!best.converged || !certain(best.term))
+  best = registration::alignDense(best_keyframe->dense(), best_keyframe->T_session_camera, frame, best.T_session_camera,
+                                  geometry::Matrix6d::Zero(), fine);
+  if (!best.converged || !registration::certain(best.term))
     return std::nullopt;
   return best;
 }

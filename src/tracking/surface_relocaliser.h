@@ -2,16 +2,16 @@
 
 #include <optional>
 
-#include "dense_alignment.h"
 #include "keyframe_map.h"
+#include "object_modelling/registration/dense_alignment.h"
 
 namespace object_modelling::tracking
 {
 /// Places a frame that looks from near a keyframe by aligning it densely: quick, and works without print. Tried are the
 /// keyframes whose images are most alike and, if given, those nearest to `T_session_camera_hint`. The best alignment is
 /// given if `certain()`; whoever uses it checks landmarks too.
-std::optional<DenseAlignment> relocaliseBySurfaces(const DensePyramid& frame, const cv::Mat& thumbnail,
-                                                   const KeyframeMap& map,
-                                                   const std::optional<Eigen::Isometry3d>& T_session_camera_hint);
+std::optional<registration::DenseAlignment> relocaliseBySurfaces(
+    const registration::DensePyramid& frame, const cv::Mat& thumbnail, const KeyframeMap& map,
+    const std::optional<Eigen::Isometry3d>& T_session_camera_hint);
 
 }  // namespace object_modelling::tracking

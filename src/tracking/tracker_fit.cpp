@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "dense_quality.h"
+#include "object_modelling/registration/dense_quality.h"
 #include "pose_uncertainty.h"
 #include "stage_timer.h"
 #include "tracker_implementation.h"
@@ -23,9 +23,9 @@ int countTrusted(const std::vector<LandmarkMatch>& matches)
 }
 }  // namespace
 
-PoseEstimationOptions CameraTracker::Implementation::poseOptions(const rgbd::Frame& frame) const
+registration::PoseEstimationOptions CameraTracker::Implementation::poseOptions(const rgbd::Frame& frame) const
 {
-  PoseEstimationOptions options;
+  registration::PoseEstimationOptions options;
   // The gate is given for a VGA image, where half a pixel is what patch refinement reaches.
   options.max_reprojection_error_px = options_.max_reprojection_error_px;
   options.noise_model = frame.noise_model;
@@ -42,19 +42,20 @@ CameraTracker::Implementation::Surfaces CameraTracker::Implementation::surfacesN
   if (nearest.empty())
     return surfaces;
   surfaces.reference = nearest.front();
-  DenseAlignmentOptions finest;
+  registration::DenseAlignmentOptions finest;
   finest.coarsest_level = 0;
   finest.max_iterations = 2;
-  const DenseAlignment aligned = alignDense(surfaces.reference->dense(), surfaces.reference->T_session_camera,
-                                            view.dense, T_session_camera, geometry::Matrix6d::Zero(), finest);
-  if (plausible(aligned.term))
+  const registration::DenseAlignment aligned =
+      registration::alignDense(surfaces.reference->dense(), surfaces.reference->T_session_camera, view.dense,
+                               T_session_camera, geometry::Matrix6d::Zero(), finest);
+  if (registration::plausible(aligned.term))
     surfaces.aligned = aligned;
   return surfaces;
 }
 
 CameraTracker::Implementation::Placement CameraTracker::Implementation::placeNear(
     const View& view, const Surfaces& surfaces, const std::vector<LandmarkMatch>& flow, double prediction_error_px,
-    const QuadraticTerm* prediction, StageTimes* times) const
+    const registration::QuadraticTerm* prediction, StageTimes* times) const
 {
   Placement placement;
   if (!surfaces.reference)
@@ -64,9 +65,9 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeNea
   }
   placement.reference = surfaces.reference;
   const MapKeyframe& reference = *surfaces.reference;
-  const DenseAlignment& aligned = surfaces.aligned;
+  const registration::DenseAlignment& aligned = surfaces.aligned;
   const Eigen::Isometry3d& T_session_camera = aligned.T_session_camera;
-  const bool surfaces_fit = plausible(aligned.term);
+  const bool surfaces_fit = registration::plausible(aligned.term);
   placement.overlap = aligned.term.overlap;
 
   const StageTimer map_timer(&times->map_ms);
@@ -93,7 +94,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeNea
                                        [](const LandmarkMatch& match) { return !match.trusted; }),
                         found.matches.end());
 
-  QuadraticTerm term;
+  registration::QuadraticTerm term;
   term.T_camera_session = T_session_camera.inverse();
   if (surfaces_fit)
     term.equations = aligned.term.equations;
@@ -102,17 +103,19 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeNea
     term.equations += prediction->at(term.T_camera_session);
   else
     term.equations.A += geometry::Matrix6d::Identity() / (LOST_SIGMA * LOST_SIGMA);
-  placement.pose =
-      refinePose(correspondencesOf(found.matches), view.frame.camera, T_session_camera, poseOptions(view.frame), &term);
+  placement.pose = registration::refinePose(correspondencesOf(found.matches), view.frame.camera, T_session_camera,
+                                            poseOptions(view.frame), &term);
   const bool landmarks_fit =
       placement.pose.valid && placement.pose.close_count >= options_.min_inliers &&
       placement.pose.inlier_count >= options_.min_inlier_ratio * static_cast<double>(found.matches.size());
   if (!placement.pose.valid ||
-      (!landmarks_fit && !(surfaces_fit && (prediction ? convincing(aligned.term) : certain(aligned.term)))))
+      (!landmarks_fit &&
+       !(surfaces_fit && (prediction ? registration::convincing(aligned.term) : registration::certain(aligned.term)))))
   {
     placement.reason = std::to_string(placement.pose.close_count) + " consistent landmarks of " +
                        std::to_string(found.predicted_count) + " that should be in view (at least " +
-                       std::to_string(options_.min_inliers) + " are needed), and surfaces: " + describe(aligned.term);
+                       std::to_string(options_.min_inliers) +
+                       " are needed), and surfaces: " + registration::describe(aligned.term);
     placement.pose.valid = false;
     return placement;
   }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "depth_sampling.h"
 #include "keyframe_maker.h"
 #include "object_modelling/base/status.h"
 #include "object_modelling/rgbd/depth_in_time.h"
+#include "object_modelling/rgbd/depth_sampling.h"
 #include "object_modelling/rgbd/surface_fit.h"
 #include "stage_timer.h"
 
@@ -74,8 +74,8 @@ TrackingResult CameraTracker::Implementation::trackUsable(const rgbd::Frame& fra
   last_stamp_s_ = frame.stamp_s;
 
   StageTimer timer(&result.times.pyramid_ms);
-  View view{ frame, ImagePyramid(frame.gray), {} };
-  view.dense = DensePyramid(frame, view.pyramid.levels());
+  View view{ frame, registration::ImagePyramid(frame.gray), {} };
+  view.dense = registration::DensePyramid(frame, view.pyramid.levels());
   result.blur_ratio = updateBlur(frame, view.pyramid);
   timer.stop();
   if (map_.empty())
@@ -126,8 +126,9 @@ void CameraTracker::Implementation::start(const View& view, TrackingResult* resu
   camera_ = view.frame.camera;
   addKeyframe(view, Eigen::Isometry3d::Identity(), {}, true, result);
   result->inlier_count = result->feature_count = static_cast<int>(last_inliers_.size());
-  const std::vector<DensePoint>& surface = map_.keyframes().back()->dense().levels().front().all;
-  const auto edges = std::count_if(surface.begin(), surface.end(), [](const DensePoint& p) { return p.textured; });
+  const std::vector<registration::DensePoint>& surface = map_.keyframes().back()->dense().levels().front().all;
+  const auto edges =
+      std::count_if(surface.begin(), surface.end(), [](const registration::DensePoint& p) { return p.textured; });
   if (result->inlier_count < options_.min_inliers && (surface.size() < MIN_SURFACE_POINTS || edges < MIN_EDGE_POINTS))
   {
     result->reason = "only " + std::to_string(result->inlier_count) + " features with depth in view (at least " +
@@ -208,10 +209,10 @@ void CameraTracker::Implementation::synchroniseDepth(rgbd::Keyframe* keyframe) c
     return;
   frame.depth_m = rgbd::moveDepth(frame.depth_m, frame.camera, T_color_depth);
   for (rgbd::Observation& observation : keyframe->observations)
-    observation.depth_m = sampleDepth_m(frame.depth_m, observation.pixel.x(), observation.pixel.y());
+    observation.depth_m = rgbd::sampleDepth_m(frame.depth_m, observation.pixel.x(), observation.pixel.y());
 }
 
-double CameraTracker::Implementation::updateBlur(const rgbd::Frame& frame, const ImagePyramid& pyramid)
+double CameraTracker::Implementation::updateBlur(const rgbd::Frame& frame, const registration::ImagePyramid& pyramid)
 {
   const double sharpness = pyramid.sharpness(objectOnly() ? frame.object_mask : cv::Mat());
   sharpest_ = std::max(sharpness, SHARPNESS_DECAY_RATIO * sharpest_);
@@ -239,7 +240,7 @@ void CameraTracker::Implementation::resume(const std::vector<rgbd::Keyframe>& ke
     known.frame = keyframe.frame;
     if (!objectOnly())
       known.frame.object_mask.release();
-    known.pyramid = ImagePyramid(keyframe.frame.gray).copyLevels();
+    known.pyramid = registration::ImagePyramid(keyframe.frame.gray).copyLevels();
     std::vector<double> depths_m;
     for (const rgbd::Observation& observation : keyframe.observations)
     {

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "dense_alignment.h"
 #include "keyframe_map.h"
 #include "map_matching.h"
 #include "motion_model.h"
+#include "object_modelling/registration/dense_alignment.h"
+#include "object_modelling/registration/pose_estimation.h"
 #include "object_modelling/tracking/camera_tracker.h"
-#include "pose_estimation.h"
 
 namespace object_modelling::tracking
 {
@@ -29,14 +29,14 @@ private:
   struct View
   {
     const rgbd::Frame& frame;
-    ImagePyramid pyramid;
-    DensePyramid dense;
+    registration::ImagePyramid pyramid;
+    registration::DensePyramid dense;
   };
 
   /// A frame that has been placed, or why it has not.
   struct Placement
   {
-    PoseEstimate pose;                   ///< valid if placed
+    registration::PoseEstimate pose;     ///< valid if placed
     std::vector<LandmarkMatch> inliers;  ///< what the pose rests on beside the surfaces
     const MapKeyframe* reference = nullptr;
     geometry::Matrix6d relative_covariance =
@@ -53,7 +53,7 @@ private:
   struct Surfaces
   {
     const MapKeyframe* reference = nullptr;  ///< null if none looks this way
-    DenseAlignment aligned;
+    registration::DenseAlignment aligned;
     bool chained = false;  ///< aligned with the frame before instead
   };
 
@@ -65,21 +65,22 @@ private:
   Placement place(const View& view, StageTimes* times) const;
 
   /// Where the camera should be now: on at constant velocity, or moved as the robot says (if it says anything).
-  QuadraticTerm predictByHand(double stamp_s) const;
-  std::optional<QuadraticTerm> predictByRobot() const;
+  registration::QuadraticTerm predictByHand(double stamp_s) const;
+  std::optional<registration::QuadraticTerm> predictByRobot() const;
 
-  Placement placeByAlignment(const View& view, const QuadraticTerm& prediction, StageTimes* times) const;
+  Placement placeByAlignment(const View& view, const registration::QuadraticTerm& prediction, StageTimes* times) const;
   /// A frame that was placed in doubt by keyframes in doubt, by the trusted ones that see the same; not valid if none
   /// does.
   Placement placeByTrusted(const View& view, const Eigen::Isometry3d& T_session_camera, StageTimes* times) const;
-  Placement placeByFlow(const View& view, const QuadraticTerm& prediction, StageTimes* times) const;
+  Placement placeByFlow(const View& view, const registration::QuadraticTerm& prediction, StageTimes* times) const;
   Placement placeByRecognition(const View& view, StageTimes* times) const;
   /// Surfaces of the nearest keyframe at the finest level, from a pose that is close.
   Surfaces surfacesNear(const View& view, const Eigen::Isometry3d& T_session_camera, StageTimes* times) const;
   /// From a pose near by: the map's landmarks, and least squares on them, the surfaces and the prediction (may be
   /// null). `flow` are inliers of optical flow.
   Placement placeNear(const View& view, const Surfaces& surfaces, const std::vector<LandmarkMatch>& flow,
-                      double prediction_error_px, const QuadraticTerm* prediction, StageTimes* times) const;
+                      double prediction_error_px, const registration::QuadraticTerm* prediction,
+                      StageTimes* times) const;
   std::string implausible(const rgbd::Frame& frame, const Eigen::Isometry3d& T_session_camera) const;
 
   void start(const View& view, TrackingResult* result);
@@ -87,10 +88,10 @@ private:
   void considerKeyframe(const View& view, const Placement& placement, TrackingResult* result);
   void addKeyframe(const View& view, const Eigen::Isometry3d& T_session_camera,
                    const std::vector<LandmarkMatch>& matches, bool trusted, TrackingResult* result);
-  double updateBlur(const rgbd::Frame& frame, const ImagePyramid& pyramid);
+  double updateBlur(const rgbd::Frame& frame, const registration::ImagePyramid& pyramid);
   std::uint64_t seed() const { return options_.seed * 1000003 + frame_count_; }
   bool objectOnly() const { return options_.reference == Reference::OBJECT; }
-  PoseEstimationOptions poseOptions(const rgbd::Frame& frame) const;
+  registration::PoseEstimationOptions poseOptions(const rgbd::Frame& frame) const;
 
   CameraTrackerOptions options_;
   KeyframeMap map_;
@@ -104,8 +105,8 @@ private:
   int frames_since_keyframe_ = 0;
   bool lost_ = false;
   double sharpest_ = 0;
-  ImagePyramid last_pyramid_;  ///< of the last frame that was placed
-  DensePyramid last_dense_;    ///< of the same
+  registration::ImagePyramid last_pyramid_;  ///< of the last frame that was placed
+  registration::DensePyramid last_dense_;    ///< of the same
   double last_placed_s_ = 0;
   double previous_placed_s_ = 0;
   std::vector<LandmarkMatch> last_inliers_;                          ///< landmarks followed by optical flow

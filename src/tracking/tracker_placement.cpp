@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include "dense_quality.h"
-#include "depth_sampling.h"
+#include "object_modelling/registration/dense_quality.h"
+#include "object_modelling/rgbd/depth_sampling.h"
 #include "pose_uncertainty.h"
 #include "relocaliser.h"
 #include "stage_timer.h"
@@ -27,12 +27,12 @@ constexpr double FLOW_PREDICTION_ERROR_PX = 1.5;
 constexpr double ALIGNMENT_ERROR_PX = 1.5;
 }  // namespace
 
-QuadraticTerm CameraTracker::Implementation::predictByHand(double stamp_s) const
+registration::QuadraticTerm CameraTracker::Implementation::predictByHand(double stamp_s) const
 {
   return predictionTerm(*motion_.predict(stamp_s), last_covariance_, handMotionCovariance(stamp_s - last_placed_s_));
 }
 
-std::optional<QuadraticTerm> CameraTracker::Implementation::predictByRobot() const
+std::optional<registration::QuadraticTerm> CameraTracker::Implementation::predictByRobot() const
 {
   if (!T_robot_camera_ || !T_robot_camera_last_)
     return std::nullopt;
@@ -49,8 +49,8 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::place(co
   Placement placement;
   if (motion_.last() && !interrupted)
   {
-    const QuadraticTerm by_hand = predictByHand(view.frame.stamp_s);
-    const std::optional<QuadraticTerm> by_robot = predictByRobot();
+    const registration::QuadraticTerm by_hand = predictByHand(view.frame.stamp_s);
+    const std::optional<registration::QuadraticTerm> by_robot = predictByRobot();
     placement = placeByAlignment(view, by_robot.value_or(by_hand), times);
     // A robot that says what cannot be (wrong frame, clock or calibration) has no say at all.
     if (by_robot && (!placement.pose.valid || contradicts(placement.pose, *by_robot)))
@@ -76,7 +76,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::place(co
 }
 
 CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByAlignment(
-    const View& view, const QuadraticTerm& prediction, StageTimes* times) const
+    const View& view, const registration::QuadraticTerm& prediction, StageTimes* times) const
 {
   StageTimer timer(&times->dense_ms);
   Placement placement;
@@ -88,41 +88,42 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByA
     return placement;
   }
   const MapKeyframe& reference = *nearest.front();
-  DenseAlignment aligned = alignDense(reference.dense(), reference.T_session_camera, view.dense, T_session_predicted,
-                                      prediction.equations.A);
+  registration::DenseAlignment aligned = registration::alignDense(
+      reference.dense(), reference.T_session_camera, view.dense, T_session_predicted, prediction.equations.A);
   bool chained = false;
-  if (!convincing(aligned.term))
+  if (!registration::convincing(aligned.term))
   {
     // The frame before shows most of the same, and a hand that turned back is nearer to where it was. Where it became
     // the reference, it was tried from the prediction already.
     const bool last_is_reference = reference.T_session_camera.matrix() == motion_.last()->matrix();
-    std::optional<DenseReference> made;
+    std::optional<registration::DenseReference> made;
     if (!last_is_reference)
       made.emplace(last_dense_);
-    const DenseReference& last = made ? *made : reference.dense();
+    const registration::DenseReference& last = made ? *made : reference.dense();
     std::vector<Eigen::Isometry3d> starts = { *motion_.last() };
     if (!last_is_reference)
       starts.insert(starts.begin(), T_session_predicted);
     for (const Eigen::Isometry3d& T_start : starts)
     {
-      const DenseAlignment other = alignDense(last, *motion_.last(), view.dense, T_start, prediction.equations.A);
-      if (quality(other.term) <= quality(aligned.term))
+      const registration::DenseAlignment other =
+          registration::alignDense(last, *motion_.last(), view.dense, T_start, prediction.equations.A);
+      if (registration::quality(other.term) <= registration::quality(aligned.term))
         continue;
       aligned = other;
       chained = !last_is_reference;
     }
   }
   timer.stop();
-  if (!plausible(aligned.term))
+  if (!registration::plausible(aligned.term))
   {
-    placement.reason = "surfaces do not fit what was seen before: " + describe(aligned.term);
+    placement.reason = "surfaces do not fit what was seen before: " + registration::describe(aligned.term);
     return placement;
   }
   Surfaces surfaces = { &reference, aligned, false };
   if (chained)
   {
     surfaces = surfacesNear(view, aligned.T_session_camera, times);
-    if (!convincing(surfaces.aligned.term))
+    if (!registration::convincing(surfaces.aligned.term))
       surfaces = { surfaces.reference, aligned, true };
   }
   placement = placeNear(view, surfaces, {}, ALIGNMENT_ERROR_PX, &prediction, times);
@@ -142,10 +143,10 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByT
   if (nearest.empty())
     return {};
   const MapKeyframe& reference = *nearest.front();
-  const DenseAlignment aligned = alignDense(reference.dense(), reference.T_session_camera, view.dense, T_session_camera,
-                                            geometry::Matrix6d::Zero());
+  const registration::DenseAlignment aligned = registration::alignDense(
+      reference.dense(), reference.T_session_camera, view.dense, T_session_camera, geometry::Matrix6d::Zero());
   timer.stop();
-  if (!certain(aligned.term))
+  if (!registration::certain(aligned.term))
     return {};
   Placement placement = placeNear(view, { &reference, aligned, false }, {}, ALIGNMENT_ERROR_PX, nullptr, times);
   if (!placement.pose.valid)
@@ -157,9 +158,8 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByT
   return placement;
 }
 
-CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByFlow(const View& view,
-                                                                                    const QuadraticTerm& prediction,
-                                                                                    StageTimes* times) const
+CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByFlow(
+    const View& view, const registration::QuadraticTerm& prediction, StageTimes* times) const
 {
   Placement placement;
   if (last_inliers_.empty())
@@ -176,7 +176,8 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByF
     from.push_back(match.correspondence.pixel.cast<float>());
     predicted.push_back(p.z() > 0.05 ? Eigen::Vector2f(camera_.project(p).cast<float>()) : from.back());
   }
-  const std::vector<FlowFeature> flow = trackFlow(last_pyramid_, view.pyramid, from, predicted);
+  const std::vector<registration::FlowFeature> flow =
+      registration::trackFlow(last_pyramid_, view.pyramid, from, predicted);
   std::vector<LandmarkMatch> matches;
   for (std::size_t i = 0; i < flow.size(); ++i)
   {
@@ -188,11 +189,11 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByF
       continue;
     matches.push_back({ last_inliers_[i].landmark_id,
                         { last_inliers_[i].correspondence.p_session, pixel.cast<double>(),
-                          sampleDepth_m(frame.depth_m, pixel.x(), pixel.y()) },
+                          rgbd::sampleDepth_m(frame.depth_m, pixel.x(), pixel.y()) },
                         last_inliers_[i].trusted });
   }
-  const PoseEstimate rough = estimatePose(correspondencesOf(matches), frame.camera,
-                                          prediction.T_camera_session.inverse(), seed(), poseOptions(frame));
+  const registration::PoseEstimate rough = registration::estimatePose(
+      correspondencesOf(matches), frame.camera, prediction.T_camera_session.inverse(), seed(), poseOptions(frame));
   timer.stop();
   if (!rough.valid || rough.close_count < options_.min_inliers ||
       rough.inlier_count < options_.min_inlier_ratio * static_cast<double>(last_inliers_.size()))
@@ -215,7 +216,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByR
                                                                                            StageTimes* times) const
 {
   StageTimer timer(&times->recognition_ms);
-  const std::optional<DenseAlignment> by_surfaces =
+  const std::optional<registration::DenseAlignment> by_surfaces =
       relocaliseBySurfaces(view.dense, makeThumbnail(view.frame.gray), map_, motion_.last());
   if (by_surfaces)
   {

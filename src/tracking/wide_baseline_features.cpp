@@ -1,6 +1,6 @@
 #include "wide_baseline_features.h"
 
-#include "depth_sampling.h"
+#include "object_modelling/rgbd/depth_sampling.h"
 
 namespace object_modelling::tracking
 {
@@ -23,7 +23,7 @@ WideBaselineFeatures detectWideBaselineFeatures(const rgbd::Frame& frame, Featur
   for (const cv::Point2f& pixel : found.pixels)
   {
     result.pixels.emplace_back(pixel.x, pixel.y);
-    result.depths_m.push_back(sampleDepth_m(frame.depth_m, pixel.x, pixel.y, MAX_DEPTH_STEP_RATIO));
+    result.depths_m.push_back(rgbd::sampleDepth_m(frame.depth_m, pixel.x, pixel.y, MAX_DEPTH_STEP_RATIO));
   }
   return result;
 }

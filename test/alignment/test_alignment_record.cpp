@@ -80,8 +80,8 @@ TEST(AlignmentRecord, ReadsOneThatLacksWhatWasAddedSince)
       EXPECT_FALSE(refusal(without).empty()) << figure.name;
       continue;
     }
-    const PairQuality quality = edgeFrom({ "mug_1", "mug_2", without }).candidates.front().quality;
-    EXPECT_EQ(quality.*figure.value, PairQuality().*figure.value) << figure.name;
+    const registration::PairQuality quality = edgeFrom({ "mug_1", "mug_2", without }).candidates.front().quality;
+    EXPECT_EQ(quality.*figure.value, registration::PairQuality().*figure.value) << figure.name;
     EXPECT_EQ(quality.probability, 0.975);
   }
 }

@@ -4,6 +4,7 @@
 
 #include "object_modelling/alignment/alignment_by_points.h"
 #include "object_modelling/alignment/session_alignment.h"
+#include "object_modelling/alignment/session_part.h"
 
 #include "object_modelling/geometry/transform.h"
 #include "support/handheld_trajectory.h"
@@ -17,8 +18,8 @@ namespace
 const Eigen::Vector3d SIZE_M(0.08, 0.12, 0.2);
 
 /// A session round an object that stands as it is turned; its session frame is the world frame.
-PartialModel scanned(const std::string& id, test_support::SceneObject object, const Eigen::Matrix3d& R, double height_m,
-                     bool use_color = true)
+registration::PartialModel scanned(const std::string& id, test_support::SceneObject object, const Eigen::Matrix3d& R,
+                                   double height_m, bool use_color = true)
 {
   object.T_world_object.linear() = R;
   object.T_world_object.translation() = Eigen::Vector3d(0, 0, height_m / 2);
@@ -67,7 +68,8 @@ void expectNear(const PairAlignment& found, const Eigen::Isometry3d& T_a_b, doub
   EXPECT_LT((off * centre - centre).norm(), 0.0015);
 }
 
-PairAlignment align(const PartialModel& a, const PartialModel& b, const PairAlignmentOptions& options = {})
+PairAlignment align(const registration::PartialModel& a, const registration::PartialModel& b,
+                    const PairAlignmentOptions& options = {})
 {
   base::JobControl control;
   return alignPair(a, b, options, control);
@@ -83,7 +85,8 @@ protected:
 
 TEST_F(PairAlignmentOfABox, FindsItLaidOnItsSide)
 {
-  const PartialModel a = scanned("up", box_, upright_, SIZE_M.z()), b = scanned("side", box_, lying_, SIZE_M.y());
+  const registration::PartialModel a = scanned("up", box_, upright_, SIZE_M.z()),
+                                   b = scanned("side", box_, lying_, SIZE_M.y());
   const PairAlignment found = align(a, b);
   expectNear(found, truth(upright_, SIZE_M.z(), lying_, SIZE_M.y()), SIZE_M.y());
   EXPECT_GT(found.candidates.front().quality.color_agreement, 0.6);
@@ -101,7 +104,8 @@ TEST_F(PairAlignmentOfABox, FindsItTurnedUpsideDown)
 TEST_F(PairAlignmentOfABox, FindsItInTheSameRestingPoseIfThatMayBe)
 {
   const Eigen::Matrix3d turned = about(Z, 100);
-  const PartialModel a = scanned("up", box_, upright_, SIZE_M.z()), b = scanned("again", box_, turned, SIZE_M.z());
+  const registration::PartialModel a = scanned("up", box_, upright_, SIZE_M.z()),
+                                   b = scanned("again", box_, turned, SIZE_M.z());
   PairAlignmentOptions same_pose;
   same_pose.same_pose_probability = 0.5;
   expectNear(align(a, b, same_pose), truth(upright_, SIZE_M.z(), turned, SIZE_M.z()), SIZE_M.z());
@@ -124,8 +128,8 @@ TEST_F(PairAlignmentOfABox, TakesAnyEquivalentPoseWithoutColour)
 
 TEST_F(PairAlignmentOfABox, RefusesAnotherObject)
 {
-  const PartialModel a = scanned("box", box_, upright_, SIZE_M.z());
-  const PartialModel can =
+  const registration::PartialModel a = scanned("box", box_, upright_, SIZE_M.z());
+  const registration::PartialModel can =
       scanned("can", test_support::standingCylinder(0.07, 0.11), Eigen::Matrix3d::Identity(), 0.11);
   const PairAlignment found = align(a, can);
   EXPECT_FALSE(found.accepted);
@@ -147,7 +151,8 @@ TEST_F(PairAlignmentOfABox, RefusesAnotherPrintOnTheSameShape)
 
 TEST_F(PairAlignmentOfABox, GivesTheSameBitsWithAnyNumberOfThreads)
 {
-  const PartialModel a = scanned("up", box_, upright_, SIZE_M.z()), b = scanned("side", box_, lying_, SIZE_M.y());
+  const registration::PartialModel a = scanned("up", box_, upright_, SIZE_M.z()),
+                                   b = scanned("side", box_, lying_, SIZE_M.y());
   PairAlignmentOptions one, three;
   one.threads = 1;
   three.threads = 3;
@@ -159,12 +164,12 @@ TEST_F(PairAlignmentOfABox, GivesTheSameBitsWithAnyNumberOfThreads)
 
 TEST_F(PairAlignmentOfABox, TakesAKnownPoseOverWhereThePartsBearItOut)
 {
-  std::vector<PartialModel> parts = { scanned("up", box_, upright_, SIZE_M.z()),
-                                      scanned("side", box_, lying_, SIZE_M.y()) };
+  std::vector<registration::PartialModel> parts = { scanned("up", box_, upright_, SIZE_M.z()),
+                                                    scanned("side", box_, lying_, SIZE_M.y()) };
   PairAlignmentOptions hardly;  // one proposal that is not the pose, so that only what is known can be found
   hardly.rotations = 0;
   hardly.refined_candidates = 1;
-  for (PartialModel& part : parts)
+  for (registration::PartialModel& part : parts)
   {
     part.features.clear();
     part.support_plane.reset();
@@ -221,7 +226,8 @@ protected:
     }
     return "accepted";
   }
-  PartialModel a_ = scanned("up", box_, upright_, SIZE_M.z()), b_ = scanned("side", box_, lying_, SIZE_M.y());
+  registration::PartialModel a_ = scanned("up", box_, upright_, SIZE_M.z()),
+                             b_ = scanned("side", box_, lying_, SIZE_M.y());
 };
 
 TEST_F(PointsOfABox, TellThePose)
@@ -253,7 +259,7 @@ TEST_F(PointsOfABox, AreRefusedWhereTheyTellNone)
 
 TEST_F(PairAlignmentOfABox, StopsWhenCancelled)
 {
-  const PartialModel a = scanned("up", box_, upright_, SIZE_M.z(), false);
+  const registration::PartialModel a = scanned("up", box_, upright_, SIZE_M.z(), false);
   base::JobControl control;
   control.cancel();
   EXPECT_THROW(alignPair(a, a, {}, control), base::Cancelled);

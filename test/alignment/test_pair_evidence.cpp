@@ -10,15 +10,15 @@ namespace object_modelling::alignment
 {
 namespace
 {
-double valueOf(Feature feature, const PairQuality& quality)
+double valueOf(Feature feature, const registration::PairQuality& quality)
 {
   return featuresOf(quality)[static_cast<std::size_t>(feature)];
 }
 
 /// A pose like those that are right: turned over, touching, print that agrees.
-PairQuality good()
+registration::PairQuality good()
 {
-  PairQuality quality;
+  registration::PairQuality quality;
   quality.overlap_ratio = 0.6;
   quality.rmse_m = 5e-4;
   quality.contact_gap_m = 5e-4;
@@ -43,7 +43,7 @@ TEST(PairEvidence, NamesEveryFeatureOnce)
 
 TEST(PairEvidence, HoldsAgainstAPoseThatTheObjectWasNotTurnedOver)
 {
-  PairQuality quality = good();
+  registration::PairQuality quality = good();
   EXPECT_EQ(turnPrior(quality, 0.01), 0);
   quality.turn_rad = 0;
   EXPECT_NEAR(turnPrior(quality, 0.01), std::log(0.01 / 0.99), 1e-12);
@@ -58,7 +58,7 @@ TEST(PairEvidence, HoldsAgainstAPoseThatTheObjectWasNotTurnedOver)
 
 TEST(PairEvidence, WantsTheObjectToTouchWhatItStoodOn)
 {
-  PairQuality floats = good();
+  registration::PairQuality floats = good();
   floats.contact_gap_m = 0.005;
   EXPECT_LT(valueOf(Feature::CONTACT, floats), valueOf(Feature::CONTACT, good()) - 1);
   // Not turned over, what was hidden at the foot is hidden in both.
@@ -70,9 +70,9 @@ TEST(PairEvidence, WantsTheObjectToTouchWhatItStoodOn)
 
 TEST(PairEvidence, TakesRoughSurfacesForLessExact)
 {
-  PairQuality rough = good();
+  registration::PairQuality rough = good();
   rough.contact_gap_m = rough.rmse_m = 0.002;
-  PairQuality smooth = rough;
+  registration::PairQuality smooth = rough;
   rough.roughness_m = 0.002;
   EXPECT_GT(valueOf(Feature::CONTACT, rough), valueOf(Feature::CONTACT, smooth));
   EXPECT_GT(valueOf(Feature::FIT, rough), valueOf(Feature::FIT, smooth));
@@ -80,7 +80,7 @@ TEST(PairEvidence, TakesRoughSurfacesForLessExact)
 
 TEST(PairEvidence, DoesNotPrizeOverlapBeyondAThird)
 {
-  PairQuality all = good(), little = good();
+  registration::PairQuality all = good(), little = good();
   all.overlap_ratio = 1;
   EXPECT_EQ(valueOf(Feature::OVERLAP, all), valueOf(Feature::OVERLAP, good()));
   little.overlap_ratio = 0.15;
@@ -89,7 +89,7 @@ TEST(PairEvidence, DoesNotPrizeOverlapBeyondAThird)
 
 TEST(PairEvidence, TellsPrintThatAgreesFromOtherAndFromNone)
 {
-  const auto of_print = [](const PairQuality& quality)
+  const auto of_print = [](const registration::PairQuality& quality)
   {
     const FeatureVector values = contributions(quality);
     double sum = 0;
@@ -97,7 +97,7 @@ TEST(PairEvidence, TellsPrintThatAgreesFromOtherAndFromNone)
       sum += values[static_cast<std::size_t>(feature)];
     return sum;
   };
-  PairQuality other = good(), plain = good(), relit = good();
+  registration::PairQuality other = good(), plain = good(), relit = good();
   other.color_agreement = other.edge_agreement = 0;
   plain.texture = plain.edge_strength = 0;
   relit.color_agreement = 0.4;
@@ -110,24 +110,24 @@ TEST(PairEvidence, TellsPrintThatAgreesFromOtherAndFromNone)
 
 TEST(PairEvidence, HoldsAHandleThatIsElsewhereAgainstAPose)
 {
-  PairQuality handle = good();
+  registration::PairQuality handle = good();
   handle.fsv_ratio = 0.06;
   EXPECT_LT(logOdds(handle, 0.01), logOdds(good(), 0.01) - 2);
 }
 
 TEST(PairEvidence, AddsUp)
 {
-  const PairQuality quality = good();
+  const registration::PairQuality quality = good();
   double sum = 0;
   for (const double contribution : contributions(quality))
     sum += contribution;
   EXPECT_NEAR(
-      logOdds(quality, 0.01) - logOdds(PairQuality(), 0.01),
+      logOdds(quality, 0.01) - logOdds(registration::PairQuality(), 0.01),
       sum -
           []
           {
             double none = 0;
-            for (const double contribution : contributions(PairQuality()))
+            for (const double contribution : contributions(registration::PairQuality()))
               none += contribution;
             return none;
           }(),

@@ -6,9 +6,9 @@ namespace object_modelling::alignment
 {
 namespace
 {
-PartialModel part(const std::string& id)
+registration::PartialModel part(const std::string& id)
 {
-  PartialModel result;
+  registration::PartialModel result;
   result.session_id = id;
   return result;
 }
@@ -22,12 +22,12 @@ AlignmentEdge edge(const std::string& a, const std::string& b, const Eigen::Vect
   return { a, b, Decision::AUTOMATIC, accepted, false, accepted ? "" : "overlap 3 % below 12 %", { candidate } };
 }
 
-AlignmentResult place(const std::vector<PartialModel>& parts, const std::vector<AlignmentEdge>& edges)
+AlignmentResult place(const std::vector<registration::PartialModel>& parts, const std::vector<AlignmentEdge>& edges)
 {
   return placeSessions(parts, 0.57, edges);
 }
 
-AlignmentResult align(const std::vector<PartialModel>& parts)
+AlignmentResult align(const std::vector<registration::PartialModel>& parts)
 {
   base::JobControl control;
   return alignSessions(parts, {}, {}, control);
@@ -110,7 +110,7 @@ TEST(SessionAlignment, DoesNotTrustAWeakEdgeThatAnotherContradicts)
 TEST(SessionAlignment, MeasuresCyclesWhereTheObjectIs)
 {
   // One degree is 17 mm at the camera, 1 m away, and nothing at the object.
-  std::vector<PartialModel> parts = { part("a"), part("b"), part("c") };
+  std::vector<registration::PartialModel> parts = { part("a"), part("b"), part("c") };
   parts[2].points = { { -0.05F, 0, 1 }, { 0.05F, 0, 1 } };
   AlignmentEdge turned = edge("a", "c", { 0, 0, 0 }, 0.6);
   turned.candidates[0].T_a_b = Eigen::Translation3d(0, 0, 1) * Eigen::AngleAxisd(0.0175, Eigen::Vector3d::UnitX()) *

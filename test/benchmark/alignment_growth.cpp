@@ -17,7 +17,7 @@ double secondsOf(const Work& work)
 }
 }  // namespace
 
-std::vector<GrowthRow> measureGrowth(const std::vector<alignment::PartialModel>& parts,
+std::vector<GrowthRow> measureGrowth(const std::vector<registration::PartialModel>& parts,
                                      const alignment::PairAlignmentOptions& options)
 {
   std::vector<GrowthRow> rows;
@@ -25,7 +25,8 @@ std::vector<GrowthRow> measureGrowth(const std::vector<alignment::PartialModel>&
   base::JobControl control;
   for (std::size_t count = 2; count <= parts.size(); ++count)
   {
-    const std::vector<alignment::PartialModel> first(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count));
+    const std::vector<registration::PartialModel> first(parts.begin(),
+                                                        parts.begin() + static_cast<std::ptrdiff_t>(count));
     GrowthRow row;
     row.sessions = count;
     alignment::AlignmentResult result;

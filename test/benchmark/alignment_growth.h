@@ -16,7 +16,7 @@ struct GrowthRow
   double one_more_s = 0;  ///< the last one, the others being known
 };
 
-std::vector<GrowthRow> measureGrowth(const std::vector<alignment::PartialModel>& parts,
+std::vector<GrowthRow> measureGrowth(const std::vector<registration::PartialModel>& parts,
                                      const alignment::PairAlignmentOptions& options);
 
 /// Markdown.

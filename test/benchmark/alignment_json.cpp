@@ -23,7 +23,7 @@ nlohmann::json toJson(const Eigen::Isometry3d& T)
 
 nlohmann::json candidateJson(const alignment::PairCandidate& candidate, const CandidateErrors* errors)
 {
-  const alignment::PairQuality& quality = candidate.quality;
+  const registration::PairQuality& quality = candidate.quality;
   nlohmann::json features;
   const alignment::FeatureVector values = alignment::featuresOf(quality);
   for (std::size_t i = 0; i < values.size(); ++i)

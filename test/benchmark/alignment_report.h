@@ -19,7 +19,7 @@ struct SessionRow
   std::size_t keyframes = 0;
   double made_s = 0;  ///< 0: it was in the cache
   double part_s = 0;  ///< time of its partial model
-  alignment::PartialModel part;
+  registration::PartialModel part;
   SessionTruth truth;
   double mesh_distance_mm = 0;  ///< of the part, placed by the truth: of both what they are worth
 };

@@ -78,7 +78,7 @@ std::string toTableRow(const PairRow& pair)
   if (!pair.result.candidates.empty())
   {
     const alignment::PairCandidate& first = pair.result.candidates.front();
-    const alignment::PairQuality& quality = first.quality;
+    const registration::PairQuality& quality = first.quality;
     cells.insert(cells.end(),
                  { alignment::nameOf(first.kind), fixed(quality.overlap_ratio, 2), fixed(quality.fsv_ratio, 3),
                    fixed(1e3 * quality.rmse_m, 2), fixed(1e3 * quality.contact_gap_m, 1),

@@ -106,10 +106,11 @@ SessionTruth sessionTruth(const std::string& folder, const std::string& object_f
   return truth;
 }
 
-double trueOverlap(const alignment::PartialModel& a, const alignment::PartialModel& b, const Eigen::Isometry3d& T_a_b)
+double trueOverlap(const registration::PartialModel& a, const registration::PartialModel& b,
+                   const Eigen::Isometry3d& T_a_b)
 {
   const bool a_is_smaller = a.points.size() < b.points.size();
-  const alignment::PartialModel &smaller = a_is_smaller ? a : b, &larger = a_is_smaller ? b : a;
+  const registration::PartialModel &smaller = a_is_smaller ? a : b, &larger = a_is_smaller ? b : a;
   const Eigen::Isometry3f T_larger_smaller = (a_is_smaller ? T_a_b.inverse() : T_a_b).cast<float>();
   const double radius_m = OVERLAP_SPACINGS * std::max(a.spacing_m, b.spacing_m);
   const geometry::PointIndex index(larger.points);
@@ -125,7 +126,8 @@ double trueOverlap(const alignment::PartialModel& a, const alignment::PartialMod
   return smaller.points.empty() ? 0 : static_cast<double>(shared) / static_cast<double>(smaller.points.size());
 }
 
-double trueTurn_rad(const alignment::PartialModel& a, const alignment::PartialModel& b, const Eigen::Isometry3d& T_a_b)
+double trueTurn_rad(const registration::PartialModel& a, const registration::PartialModel& b,
+                    const Eigen::Isometry3d& T_a_b)
 {
   if (!a.support_plane || !b.support_plane)
     return -1;
@@ -141,8 +143,9 @@ double meshDistance_mm(const std::vector<Eigen::Vector3f>& points, const Eigen::
   return points.empty() ? 0 : 1e3 * sum_m / static_cast<double>(points.size());
 }
 
-CandidateErrors errorsOf(const Eigen::Isometry3d& T_a_b, const alignment::PartialModel& b, const SessionTruth& truth_a,
-                         const SessionTruth& truth_b, const mesh::ReferenceSurface& surface)
+CandidateErrors errorsOf(const Eigen::Isometry3d& T_a_b, const registration::PartialModel& b,
+                         const SessionTruth& truth_a, const SessionTruth& truth_b,
+                         const mesh::ReferenceSurface& surface)
 {
   const Eigen::Isometry3d T_a_b_true = truth_a.T_session_object * truth_b.T_session_object.inverse();
   const Eigen::Vector3d centre = b.centre().cast<double>();

@@ -25,10 +25,12 @@ SessionTruth sessionTruth(const std::string& folder, const std::string& object_f
 
 /// Share of the smaller part's points that have, placed by the truth, a point of the other part near them that faces
 /// the same way.
-double trueOverlap(const alignment::PartialModel& a, const alignment::PartialModel& b, const Eigen::Isometry3d& T_a_b);
+double trueOverlap(const registration::PartialModel& a, const registration::PartialModel& b,
+                   const Eigen::Isometry3d& T_a_b);
 
 /// Angle between what was up in the sessions, as the object lies; negative without support planes.
-double trueTurn_rad(const alignment::PartialModel& a, const alignment::PartialModel& b, const Eigen::Isometry3d& T_a_b);
+double trueTurn_rad(const registration::PartialModel& a, const registration::PartialModel& b,
+                    const Eigen::Isometry3d& T_a_b);
 
 /// Mean, of points of a session from the true mesh.
 double meshDistance_mm(const std::vector<Eigen::Vector3f>& points, const Eigen::Isometry3d& T_object_session,
@@ -41,8 +43,9 @@ struct CandidateErrors
   double mesh_distance_mm = 0;  ///< mean, of the points of part b from the true mesh
 };
 
-CandidateErrors errorsOf(const Eigen::Isometry3d& T_a_b, const alignment::PartialModel& b, const SessionTruth& truth_a,
-                         const SessionTruth& truth_b, const mesh::ReferenceSurface& surface);
+CandidateErrors errorsOf(const Eigen::Isometry3d& T_a_b, const registration::PartialModel& b,
+                         const SessionTruth& truth_a, const SessionTruth& truth_b,
+                         const mesh::ReferenceSurface& surface);
 
 /// With `surface_suffices` an alignment is right too that puts the surface where it belongs, turned by a symmetry.
 bool isRight(const CandidateErrors& errors, bool surface_suffices);

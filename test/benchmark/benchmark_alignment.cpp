@@ -18,6 +18,7 @@
 #include "alignment_sessions.h"
 #include "benchmark_program.h"
 #include "object_modelling/alignment/alignment_by_points.h"
+#include "object_modelling/alignment/session_part.h"
 #include "object_modelling/base/atomic_file.h"
 #include "object_modelling/evaluation/comparison_files.h"
 #include "object_modelling/rgbd/noise_model_file.h"
@@ -77,7 +78,7 @@ void keepArc(std::uint64_t seed, const std::string& id, std::vector<rgbd::Keyfra
 }
 
 /// Points, normals and colours as a PLY file, for looking at what was aligned.
-void writePart(const std::string& folder, const alignment::PartialModel& part)
+void writePart(const std::string& folder, const registration::PartialModel& part)
 {
   std::string name = part.session_id;
   std::replace(name.begin(), name.end(), '/', '_');
@@ -208,7 +209,7 @@ void run(const Arguments& arguments)
   std::cout << sessionTable(sessions) << "\n" << std::flush;
   if (arguments.growth)
   {
-    std::vector<alignment::PartialModel> parts;
+    std::vector<registration::PartialModel> parts;
     for (const SessionRow& session : sessions)
       if (session.problem.empty())
         parts.push_back(session.part);

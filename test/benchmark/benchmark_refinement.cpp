@@ -146,7 +146,7 @@ int main(int argc, char** argv)
       "that\n"
       "is in the store already is not tracked again. Exit codes: 1 failed, 2 wrong usage.");
   Arguments arguments;
-  refinement::MultiViewIcpOptions& icp = arguments.measure.icp;
+  multi_view_icp::MultiViewIcpOptions& icp = arguments.measure.icp;
   app.add_option("recordings", arguments.recordings, "TUM-style folders")->required()->check(CLI::ExistingDirectory);
   app.add_option("--methods", arguments.methods, "Steps joined by '+': ba (bundle adjustment), icp (multi-view)")
       ->delimiter(',');
@@ -164,7 +164,7 @@ int main(int argc, char** argv)
   app.add_option("--points", icp.points_per_keyframe, "Of multi-view ICP")->capture_default_str();
   app.add_option("--partners", icp.max_partners, "Of multi-view ICP")->capture_default_str();
   app.add_flag_callback(
-      "--nearest", [&] { icp.association = refinement::IcpAssociation::NEAREST; },
+      "--nearest", [&] { icp.association = multi_view_icp::IcpAssociation::NEAREST; },
       "Multi-view ICP by nearest points, not along viewing rays");
   app.add_option("--threads", arguments.measure.threads)->capture_default_str()->check(CLI::PositiveNumber);
   app.add_option("--seed", arguments.measure.seed, "Of tracker, bundle adjustment and disturbance");

@@ -77,7 +77,7 @@ Model makeModel(const std::string& recording, const Arguments& arguments)
     pipeline::recordSession(*source, session, store.get(), {}, control);
     throwUnlessOk(pipeline::segmentSession(*store, id, std::nullopt, {}, control).status);
   }
-  const refinement::BundleAdjustmentResult refined = pipeline::refineSession(*store, id, {}, control);
+  const bundle_adjustment::BundleAdjustmentResult refined = pipeline::refineSession(*store, id, {}, control);
   throwUnlessOk(refined.status);
   Model model;
   model.color_offset_px = refined.color_offset_px;

@@ -37,11 +37,12 @@ base::Status runStep(const std::string& step, const MeasureOptions& options, std
   base::Status status;
   if (step == "ba")
   {
-    refinement::BundleAdjustmentOptions bundle;
+    bundle_adjustment::BundleAdjustmentOptions bundle;
     bundle.object_only = options.object_only;
     bundle.threads = options.threads;
     bundle.seed = options.seed;
-    const refinement::BundleAdjustmentResult result = refinement::adjustBundle(*keyframes, bundle, control);
+    const bundle_adjustment::BundleAdjustmentResult result =
+        bundle_adjustment::adjustBundle(*keyframes, bundle, control);
     measurement->pairs = result.links.size();
     measurement->left_out = result.left_out.size();
     measurement->iterations += result.iterations;
@@ -51,11 +52,11 @@ base::Status runStep(const std::string& step, const MeasureOptions& options, std
   }
   else
   {
-    refinement::MultiViewIcpOptions icp = options.icp;
+    multi_view_icp::MultiViewIcpOptions icp = options.icp;
     icp.object_only = options.object_only;
     icp.threads = options.threads;
     icp.color_offset_px = *color_offset_px;
-    const refinement::MultiViewIcpResult result = refinement::refineByMultiViewIcp(*keyframes, icp, control);
+    const multi_view_icp::MultiViewIcpResult result = multi_view_icp::refineByMultiViewIcp(*keyframes, icp, control);
     measurement->pairs = result.pairs.size();
     measurement->left_out = result.left_out.size();
     measurement->free_directions = result.free_directions.size();

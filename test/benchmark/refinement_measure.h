@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "object_modelling/refinement/bundle_adjustment.h"
-#include "object_modelling/refinement/multi_view_icp.h"
+#include "object_modelling/bundle_adjustment/bundle_adjustment.h"
+#include "object_modelling/multi_view_icp/multi_view_icp.h"
 #include "tracking_run.h"
 
 namespace object_modelling::benchmark_refinement
@@ -23,7 +23,7 @@ struct MeasureOptions
   bool object_only = false;
   int threads = 2;
   std::uint64_t seed = 1;
-  refinement::MultiViewIcpOptions icp;
+  multi_view_icp::MultiViewIcpOptions icp;
 };
 
 /// Result and cost of one way to refine.

@@ -1,7 +1,7 @@
 #include "tracking_refinement.h"
 
 #include "object_modelling/pipeline/session_jobs.h"
-#include "object_modelling/refinement/trajectory_correction.h"
+#include "object_modelling/source/trajectory_correction.h"
 #include "support/temp_dir.h"
 
 namespace object_modelling::benchmark_tracking
@@ -20,10 +20,10 @@ Refined refineRun(const Run& run, const RunOptions& options)
     store->addKeyframe(session.id, keyframe);
 
   const double wall_start_ms = wallTime_ms(), cpu_start_ms = cpuTime_ms();
-  refinement::BundleAdjustmentOptions bundle;
+  bundle_adjustment::BundleAdjustmentOptions bundle;
   bundle.seed = options.seed;
   base::JobControl control;
-  const refinement::BundleAdjustmentResult result = pipeline::refineSession(*store, session.id, bundle, control);
+  const bundle_adjustment::BundleAdjustmentResult result = pipeline::refineSession(*store, session.id, bundle, control);
   refined.links = result.links.size();
   if (result.status.ok())
   {
@@ -34,7 +34,7 @@ Refined refineRun(const Run& run, const RunOptions& options)
       stamps_s.push_back(keyframe.frame.stamp_s);
       before.push_back(keyframe.T_session_camera);
     }
-    refined.trajectory = refinement::correctTrajectory(run.trajectory(), stamps_s, before, result.T_session_camera);
+    refined.trajectory = source::correctTrajectory(run.trajectory(), stamps_s, before, result.T_session_camera);
   }
   else
     refined.problem = result.status.message;

@@ -7,9 +7,9 @@ namespace object_modelling::nodes
 namespace
 {
 /// A plate of 6 x 10 cm that stands 0.8 m before the camera.
-std::shared_ptr<alignment::PartialModel> plate(const std::string& session_id)
+std::shared_ptr<registration::PartialModel> plate(const std::string& session_id)
 {
-  auto part = std::make_shared<alignment::PartialModel>();
+  auto part = std::make_shared<registration::PartialModel>();
   part->session_id = session_id;
   part->spacing_m = 0.002;
   part->support_plane = geometry::Plane{ Eigen::Vector3d(0, -1, 0), 0.05 };

@@ -50,10 +50,10 @@ protected:
   }
   int refinedObservationCount()
   {
-    const refinement::BundleAdjustmentResult result = refineSession(*store_, WALK, {}, control_);
+    const bundle_adjustment::BundleAdjustmentResult result = refineSession(*store_, WALK, {}, control_);
     EXPECT_TRUE(result.status.ok()) << result.status.message;
     int count = 0;
-    for (const refinement::KeyframeResidual& residual : result.residuals)
+    for (const bundle_adjustment::KeyframeResidual& residual : result.residuals)
       count += residual.observation_count;
     return count;
   }

@@ -30,7 +30,7 @@ TEST(WholeChain, FromARecordingToAnObject)
   MemorySource source(recording);
   const RecordReport recorded = recordSession(source, named("walk"), store.get(), {}, control);
   EXPECT_EQ(recorded.tracked_count, 60) << recorded.first_problem;
-  const refinement::BundleAdjustmentResult refined = refineSession(*store, "walk", {}, control);
+  const bundle_adjustment::BundleAdjustmentResult refined = refineSession(*store, "walk", {}, control);
   EXPECT_TRUE(refined.status.ok()) << refined.status.message;
   const SegmentReport segmented = segmentSession(*store, "walk", std::nullopt, {}, control);
   ASSERT_TRUE(segmented.status.ok()) << segmented.status.message;

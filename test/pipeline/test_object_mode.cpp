@@ -77,7 +77,7 @@ TEST(ObjectMode, TracksByTheTurntableTooAndKeepsItOutOfTheMasks)
 
   // Bundle adjustment takes the turntable into account again, and leaves the stored masks as they are.
   const int before = cv::countNonZero(keyframes::loadKeyframes(*store, "with")[0].frame.object_mask);
-  const refinement::BundleAdjustmentResult refined = refineSession(*store, "with", {}, control);
+  const bundle_adjustment::BundleAdjustmentResult refined = refineSession(*store, "with", {}, control);
   ASSERT_TRUE(refined.status.ok()) << refined.status.message;
   const std::vector<rgbd::Keyframe> after = keyframes::loadKeyframes(*store, "with");
   EXPECT_EQ(cv::countNonZero(after[0].frame.object_mask), before);

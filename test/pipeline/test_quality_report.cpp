@@ -12,9 +12,9 @@ namespace object_modelling::pipeline
 {
 namespace
 {
-refinement::BundleAdjustmentResult adjusted()
+bundle_adjustment::BundleAdjustmentResult adjusted()
 {
-  refinement::BundleAdjustmentResult result;
+  bundle_adjustment::BundleAdjustmentResult result;
   result.iterations = 7;
   result.initial_cost = 12.5;
   result.final_cost = 3.25;

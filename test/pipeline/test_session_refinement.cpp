@@ -15,7 +15,7 @@ TEST_F(SessionJobs, RefineWritesThePosesBack)
   store_->update(WALK, keyframes::SessionChange::ofPoses(moved));
   EXPECT_GT(worstPosition_m(), 0.006);
 
-  const refinement::BundleAdjustmentResult result = refineSession(*store_, WALK, {}, control_);
+  const bundle_adjustment::BundleAdjustmentResult result = refineSession(*store_, WALK, {}, control_);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_LT(result.final_cost, result.initial_cost);
   EXPECT_LT(worstPosition_m(), 0.004);
@@ -72,7 +72,7 @@ TEST_F(SessionJobs, RefineLeavesPosesThatNothingLinks)
 {
   storeRenderedSession(*store_, "unlinked", 3);
   const std::string before = fingerprint(*store_, "unlinked");
-  refinement::BundleAdjustmentOptions options;
+  bundle_adjustment::BundleAdjustmentOptions options;
   options.link_keyframes = false;
   EXPECT_EQ(refineSession(*store_, "unlinked", options, control_).status.code, StatusCode::NO_RESULT);
   EXPECT_EQ(fingerprint(*store_, "unlinked"), before);

@@ -9,7 +9,7 @@
 #include "object_modelling/base/status.h"
 #include "object_modelling/mesh/textured_renderer.h"
 #include "support/temp_dir.h"
-#include "texture/texture_scene.h"
+#include "texture_scene.h"
 
 namespace object_modelling::texture
 {
@@ -50,7 +50,7 @@ base::StatusCode codeOf(const std::function<void()>& action)
   return base::StatusCode::OK;
 }
 
-cv::Mat picture(const TexturedMesh& textured)
+cv::Mat picture(const mesh::TexturedMesh& textured)
 {
   return mesh::renderFourSides(textured, 160);
 }

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
 
-#include "dense_alignment.h"
-#include "dense_quality.h"
-#include "image_pyramid.h"
+#include "object_modelling/registration/dense_alignment.h"
+#include "object_modelling/registration/dense_quality.h"
+#include "object_modelling/registration/image_pyramid.h"
 #include "tracking_scene.h"
 
 namespace object_modelling::tracking
@@ -23,9 +23,9 @@ constexpr double TOLERANCE_RAD = 0.003;
 struct View
 {
   explicit View(const rgbd::Frame& frame) : pyramid(frame.gray), dense(frame, pyramid.levels()), reference(dense) {}
-  ImagePyramid pyramid;
-  DensePyramid dense;
-  DenseReference reference;
+  registration::ImagePyramid pyramid;
+  registration::DensePyramid dense;
+  registration::DenseReference reference;
 };
 
 /// Two looks at the same things, 5 degrees and 7 cm apart.
@@ -48,9 +48,10 @@ rgbd::Frame renderUnmasked(const test_support::SyntheticScene& scene, const Eige
   return frame;
 }
 
-DenseAlignment align(const View& reference, const View& frame, const Eigen::Isometry3d& T_start = IDENTITY)
+registration::DenseAlignment align(const View& reference, const View& frame,
+                                   const Eigen::Isometry3d& T_start = IDENTITY)
 {
-  return alignDense(reference.reference, IDENTITY, frame.dense, T_start, geometry::Matrix6d::Zero());
+  return registration::alignDense(reference.reference, IDENTITY, frame.dense, T_start, geometry::Matrix6d::Zero());
 }
 
 /// Something plain held close before the left of the image.
@@ -70,14 +71,14 @@ TEST(DenseAlignment, RecoversSeveralDegreesAndCentimetresBothWays)
   {
     const View a(renderUnmasked(scene, poseA(), 0));
     const View b(renderUnmasked(scene, poseB(), 1));
-    const DenseAlignment forwards = align(a, b);
-    const DenseAlignment backwards = align(b, a);
+    const registration::DenseAlignment forwards = align(a, b);
+    const registration::DenseAlignment backwards = align(b, a);
     EXPECT_TRANSFORM_NEAR(forwards.T_session_camera, T_A_B, TOLERANCE_M, TOLERANCE_RAD);
     EXPECT_TRANSFORM_NEAR(backwards.T_session_camera, T_A_B.inverse(), TOLERANCE_M, TOLERANCE_RAD);
     EXPECT_TRANSFORM_NEAR(forwards.T_session_camera * backwards.T_session_camera, IDENTITY, TOLERANCE_M, TOLERANCE_RAD);
-    for (const DenseAlignment& aligned : { forwards, backwards })
+    for (const registration::DenseAlignment& aligned : { forwards, backwards })
     {
-      EXPECT_TRUE(convincing(aligned.term)) << describe(aligned.term);
+      EXPECT_TRUE(registration::convincing(aligned.term)) << registration::describe(aligned.term);
       EXPECT_GT(aligned.term.depth_agreement, 0.9);
     }
   }
@@ -87,7 +88,8 @@ TEST(DenseAlignment, WherePointsLieInTheSessionDoesNotMatter)
 {
   const View a(renderUnmasked(test_support::boxOnTable(), poseA(), 0));
   const View b(renderUnmasked(test_support::boxOnTable(), poseB(), 1));
-  const DenseAlignment aligned = alignDense(a.reference, poseA(), b.dense, poseA(), geometry::Matrix6d::Zero());
+  const registration::DenseAlignment aligned =
+      registration::alignDense(a.reference, poseA(), b.dense, poseA(), geometry::Matrix6d::Zero());
   EXPECT_TRANSFORM_NEAR(aligned.T_session_camera, poseB(), TOLERANCE_M, TOLERANCE_RAD);
 }
 
@@ -96,8 +98,8 @@ TEST(DenseAlignment, ATightPriorHoldsTheStart)
   const View a(renderUnmasked(test_support::boxOnTable(), poseA(), 0));
   const View b(renderUnmasked(test_support::boxOnTable(), poseB(), 1));
   const geometry::Matrix6d prior = 1e14 * geometry::Matrix6d::Identity();
-  EXPECT_TRANSFORM_NEAR(alignDense(a.reference, IDENTITY, b.dense, IDENTITY, prior).T_session_camera, IDENTITY, 1e-4,
-                        1e-4);
+  EXPECT_TRANSFORM_NEAR(registration::alignDense(a.reference, IDENTITY, b.dense, IDENTITY, prior).T_session_camera,
+                        IDENTITY, 1e-4, 1e-4);
 }
 
 TEST(DenseAlignment, ExposureDoesNotCount)
@@ -106,10 +108,10 @@ TEST(DenseAlignment, ExposureDoesNotCount)
   rgbd::Frame frame_b = renderUnmasked(test_support::boxOnTable(), poseB(), 1);
   frame_b.gray.convertTo(frame_b.gray, CV_8U, 0.8, 15);
   const View a(frame_a), b(frame_b);
-  const DenseAlignment forwards = align(a, b);
+  const registration::DenseAlignment forwards = align(a, b);
   EXPECT_TRANSFORM_NEAR(forwards.T_session_camera, T_A_B, TOLERANCE_M, TOLERANCE_RAD);
   EXPECT_TRANSFORM_NEAR(align(b, a).T_session_camera, T_A_B.inverse(), TOLERANCE_M, TOLERANCE_RAD);
-  EXPECT_TRUE(convincing(forwards.term)) << describe(forwards.term);
+  EXPECT_TRUE(registration::convincing(forwards.term)) << registration::describe(forwards.term);
 }
 
 TEST(DenseAlignment, AThirdOfTheViewHiddenDoesNotCount)
@@ -118,9 +120,9 @@ TEST(DenseAlignment, AThirdOfTheViewHiddenDoesNotCount)
   rgbd::Frame frame_b = renderUnmasked(test_support::boxOnTable(), poseB(), 1);
   occlude(0.3, &frame_b);
   const View a(frame_a), b(frame_b);
-  const DenseAlignment forwards = align(a, b);
+  const registration::DenseAlignment forwards = align(a, b);
   EXPECT_TRANSFORM_NEAR(forwards.T_session_camera, T_A_B, TOLERANCE_M, TOLERANCE_RAD);
-  EXPECT_TRUE(convincing(forwards.term)) << describe(forwards.term);
+  EXPECT_TRUE(registration::convincing(forwards.term)) << registration::describe(forwards.term);
   EXPECT_LT(forwards.term.overlap, 0.85);
   // The other way round what was close is gone.
   EXPECT_TRANSFORM_NEAR(align(b, a).T_session_camera, T_A_B.inverse(), TOLERANCE_M, TOLERANCE_RAD);
@@ -155,16 +157,16 @@ TEST(DenseAlignment, TheTrueMotionFitsBest)
   const View a(renderUnmasked(test_support::boxOnTable(), poseA(), 0));
   const View b(renderUnmasked(test_support::boxOnTable(), poseB(), 1));
   const auto termAt = [&](const Eigen::Isometry3d& T_a_b)
-  { return evaluateDense(a.reference.levels()[0], b.dense.levels()[0], T_a_b.inverse(), IDENTITY, {}); };
-  const DenseTerm truth = termAt(T_A_B);
-  EXPECT_TRUE(certain(truth)) << describe(truth);
+  { return registration::evaluateDense(a.reference.levels()[0], b.dense.levels()[0], T_a_b.inverse(), IDENTITY, {}); };
+  const registration::DenseTerm truth = termAt(T_A_B);
+  EXPECT_TRUE(registration::certain(truth)) << registration::describe(truth);
   for (int axis = 0; axis < 6; ++axis)
     for (const double sign : { -1.0, 1.0 })
     {
       const geometry::Vector6d off = sign * 0.04 * geometry::Vector6d::Unit(axis);
-      const DenseTerm wrong = termAt(T_A_B * geometry::isometryFromVector(off));
-      EXPECT_LT(quality(wrong), quality(truth)) << axis;
-      EXPECT_FALSE(certain(wrong)) << axis << ": " << describe(wrong);
+      const registration::DenseTerm wrong = termAt(T_A_B * geometry::isometryFromVector(off));
+      EXPECT_LT(registration::quality(wrong), registration::quality(truth)) << axis;
+      EXPECT_FALSE(registration::certain(wrong)) << axis << ": " << registration::describe(wrong);
     }
   // Information is symmetric and nowhere negative.
   EXPECT_TRUE(truth.equations.A.isApprox(truth.equations.A.transpose(), 1e-6));
@@ -177,15 +179,17 @@ TEST(DenseAlignment, APlainPlaneLeavesThreeDirectionsFree)
   wall.table = test_support::plainTexture();
   wall.table_half_size_m = 5;
   const View a(renderUnmasked(wall, poseA(), 0));
-  const DenseTerm plane = evaluateDense(a.reference.levels()[0], a.dense.levels()[0], IDENTITY, IDENTITY, {});
+  const registration::DenseTerm plane =
+      registration::evaluateDense(a.reference.levels()[0], a.dense.levels()[0], IDENTITY, IDENTITY, {});
   const geometry::Vector6d weak = Eigen::SelfAdjointEigenSolver<geometry::Matrix6d>(plane.equations.A).eigenvalues();
   EXPECT_LT(weak(2), 0.01 * weak(3)) << weak.transpose();
-  EXPECT_FALSE(plausible(plane)) << describe(plane);
+  EXPECT_FALSE(registration::plausible(plane)) << registration::describe(plane);
   // Things on it fix the rest, with print and without.
   for (const test_support::SyntheticScene& scene : { test_support::boxOnTable(), plainScene() })
   {
     const View b(renderUnmasked(scene, poseA(), 0));
-    const DenseTerm shape = evaluateDense(b.reference.levels()[0], b.dense.levels()[0], IDENTITY, IDENTITY, {});
+    const registration::DenseTerm shape =
+        registration::evaluateDense(b.reference.levels()[0], b.dense.levels()[0], IDENTITY, IDENTITY, {});
     const geometry::Vector6d strong =
         Eigen::SelfAdjointEigenSolver<geometry::Matrix6d>(shape.equations.A).eigenvalues();
     EXPECT_GT(strong(0), 10 * weak(2)) << strong.transpose() << " against " << weak.transpose();
@@ -202,7 +206,7 @@ TEST(DenseAlignment, NoiseIsNoKnowledge)
     const View b(renderUnmasked(endlessBarScene(), T, 2));
     // Next to nothing is known beforehand: 1 m, 1 rad.
     const geometry::Matrix6d covariance =
-        (evaluateDense(a.reference.levels()[0], b.dense.levels()[0], IDENTITY, IDENTITY, {}).equations.A +
+        (registration::evaluateDense(a.reference.levels()[0], b.dense.levels()[0], IDENTITY, IDENTITY, {}).equations.A +
          geometry::Matrix6d::Identity())
             .inverse();
     const auto sigma_m = [&](const Eigen::Vector3d& direction_world)
@@ -246,13 +250,13 @@ TEST(DenseAlignment, NothingToGoByIsNeverPlausible)
   for (std::size_t i = 0; i < hopeless.size(); ++i)
   {
     const View poor(hopeless[i]);
-    for (const DenseAlignment& aligned : { align(view, poor), align(poor, view), align(poor, poor) })
+    for (const registration::DenseAlignment& aligned : { align(view, poor), align(poor, view), align(poor, poor) })
     {
-      EXPECT_FALSE(plausible(aligned.term)) << i << ": " << describe(aligned.term);
-      EXPECT_FALSE(certain(aligned.term)) << i;
+      EXPECT_FALSE(registration::plausible(aligned.term)) << i << ": " << registration::describe(aligned.term);
+      EXPECT_FALSE(registration::certain(aligned.term)) << i;
       EXPECT_TRUE(aligned.T_session_camera.matrix().allFinite()) << i;
       EXPECT_TRUE(aligned.term.equations.A.allFinite()) << i;
-      EXPECT_GE(quality(aligned.term), 0) << i;
+      EXPECT_GE(registration::quality(aligned.term), 0) << i;
     }
   }
 }
@@ -264,14 +268,14 @@ TEST(DenseAlignment, LooksThatShareNothingAreNotCertain)
   other.table.seed += 50;
   other.objects[0].texture.seed += 50;
   const View b(renderUnmasked(other, poseB(), 1));
-  EXPECT_FALSE(certain(align(a, b).term)) << describe(align(a, b).term);
+  EXPECT_FALSE(registration::certain(align(a, b).term)) << registration::describe(align(a, b).term);
   // Behind the camera, and off to the side.
   Eigen::Isometry3d T_turned = IDENTITY;
   T_turned.linear() = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitY()).toRotationMatrix();
-  const DenseAlignment away = align(a, a, T_turned);
+  const registration::DenseAlignment away = align(a, a, T_turned);
   EXPECT_EQ(away.term.in_view, 0);
   EXPECT_FALSE(away.converged);
-  EXPECT_FALSE(plausible(away.term));
+  EXPECT_FALSE(registration::plausible(away.term));
 }
 
 TEST(DensePyramid, ThinsDepthWithoutMovingSurfacesOrJoiningThem)
@@ -283,10 +287,10 @@ TEST(DensePyramid, ThinsDepthWithoutMovingSurfacesOrJoiningThem)
   for (int v = 0; v < 240; ++v)
     for (int u = 0; u < 320; ++u)
       frame.depth_m.at<float>(v, u) = u < 161 ? 0.6F + 0.0005F * static_cast<float>(u) : 1.2F;
-  const ImagePyramid pyramid(frame.gray);
-  const DensePyramid dense(frame, pyramid.levels());
+  const registration::ImagePyramid pyramid(frame.gray);
+  const registration::DensePyramid dense(frame, pyramid.levels());
   ASSERT_EQ(dense.levels().size(), 3u);
-  for (const DenseLevel& level : dense.levels())
+  for (const registration::DenseLevel& level : dense.levels())
   {
     EXPECT_EQ(level.gray.size(), level.depth_m.size());
     EXPECT_NEAR(level.fx * static_cast<float>(level.step), frame.camera.fx, 1e-3);

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "depth_sampling.h"
 #include "feature_detector.h"
+#include "object_modelling/rgbd/depth_sampling.h"
 #include "support/handheld_trajectory.h"
 #include "support/synthetic_scene.h"
 #include "wide_baseline_features.h"
@@ -26,12 +26,12 @@ TEST(DepthSampling, InterpolatesOneSurfaceOnly)
 {
   cv::Mat depth_m = (cv::Mat_<float>(3, 4) << 1.000F, 1.004F, 1.008F, 1.5F, 1.002F, 1.006F, 1.010F, 1.5F, 1.0F,
                      std::numeric_limits<float>::quiet_NaN(), 1.0F, 1.0F);
-  EXPECT_NEAR(sampleDepth_m(depth_m, 0.25F, 0.5F), 1.002F, 1e-6);
-  EXPECT_TRUE(std::isnan(sampleDepth_m(depth_m, 2.5F, 0.5F)));  // across a step
-  EXPECT_TRUE(std::isnan(sampleDepth_m(depth_m, 0.5F, 1.5F)));  // next to a hole
-  EXPECT_TRUE(std::isnan(sampleDepth_m(depth_m, -0.1F, 0.5F)));
-  EXPECT_TRUE(std::isnan(sampleDepth_m(depth_m, 3.2F, 0.5F)));
-  EXPECT_TRUE(std::isnan(sampleDepth_m(depth_m, std::numeric_limits<float>::quiet_NaN(), 0.5F)));
+  EXPECT_NEAR(rgbd::sampleDepth_m(depth_m, 0.25F, 0.5F), 1.002F, 1e-6);
+  EXPECT_TRUE(std::isnan(rgbd::sampleDepth_m(depth_m, 2.5F, 0.5F)));  // across a step
+  EXPECT_TRUE(std::isnan(rgbd::sampleDepth_m(depth_m, 0.5F, 1.5F)));  // next to a hole
+  EXPECT_TRUE(std::isnan(rgbd::sampleDepth_m(depth_m, -0.1F, 0.5F)));
+  EXPECT_TRUE(std::isnan(rgbd::sampleDepth_m(depth_m, 3.2F, 0.5F)));
+  EXPECT_TRUE(std::isnan(rgbd::sampleDepth_m(depth_m, std::numeric_limits<float>::quiet_NaN(), 0.5F)));
 }
 
 TEST(FeatureDetector, KeepsToTheMaskAndAwayFromOldFeatures)
@@ -62,7 +62,7 @@ TEST(FeatureDetector, HalfResolutionFindsTheSameCornersInFullPixels)
   cv::Mat gray(480, 640, CV_8UC1, cv::Scalar(60));
   cv::Mat inner = gray(cv::Rect(200, 100, 240, 160));
   inner.setTo(180);
-  const std::vector<Eigen::Vector2f> found = detectFeatures(ImagePyramid(gray), {}, {}, {});
+  const std::vector<Eigen::Vector2f> found = detectFeatures(registration::ImagePyramid(gray), {}, {}, {});
   EXPECT_EQ(found.size(), 4u);
   for (const Eigen::Vector2f& corner : { Eigen::Vector2f(199.5F, 99.5F), Eigen::Vector2f(439.5F, 99.5F),
                                          Eigen::Vector2f(199.5F, 259.5F), Eigen::Vector2f(439.5F, 259.5F) })
@@ -77,7 +77,7 @@ TEST(FeatureDetector, HalfResolutionFindsTheSameCornersInFullPixels)
 TEST(FeatureDetector, HalfResolutionKeepsToTheMaskAndAwayFromOldFeatures)
 {
   const rgbd::Frame frame = view(0);
-  const ImagePyramid pyramid(frame.gray);
+  const registration::ImagePyramid pyramid(frame.gray);
   FeatureDetectorOptions options;
   options.max_features = 100;
   const std::vector<Eigen::Vector2f> first = detectFeatures(pyramid, frame.object_mask, {}, options);
@@ -102,7 +102,7 @@ TEST(FeatureDetector, SmallImagesAreSearchedAtFullResolution)
 {
   cv::Mat small;
   cv::resize(view(0).gray, small, cv::Size(320, 240), 0, 0, cv::INTER_AREA);
-  const std::vector<Eigen::Vector2f> by_pyramid = detectFeatures(ImagePyramid(small), {}, {}, {});
+  const std::vector<Eigen::Vector2f> by_pyramid = detectFeatures(registration::ImagePyramid(small), {}, {}, {});
   const std::vector<Eigen::Vector2f> by_image = detectFeatures(small, {}, {}, {});
   ASSERT_FALSE(by_image.empty());
   EXPECT_EQ(by_pyramid, by_image);
@@ -113,14 +113,14 @@ TEST(FeatureDetector, TakesNoNoiseForCorners)
   cv::Mat noise(480, 640, CV_8UC1);
   cv::theRNG().state = 7;
   cv::randn(noise, 120, 2);
-  EXPECT_TRUE(detectFeatures(ImagePyramid(noise), {}, {}, {}).empty());
+  EXPECT_TRUE(detectFeatures(registration::ImagePyramid(noise), {}, {}, {}).empty());
   EXPECT_TRUE(detectFeatures(noise, {}, {}, {}).empty());
   FeatureDetectorOptions any;
   any.min_gradient = 0;
-  EXPECT_GT(detectFeatures(ImagePyramid(noise), {}, {}, any).size(), 100u);
+  EXPECT_GT(detectFeatures(registration::ImagePyramid(noise), {}, {}, any).size(), 100u);
   // Print of twenty grey levels stands out from it.
   noise(cv::Rect(200, 100, 240, 160)) += 20;
-  EXPECT_EQ(detectFeatures(ImagePyramid(noise), {}, {}, {}).size(), 4u);
+  EXPECT_EQ(detectFeatures(registration::ImagePyramid(noise), {}, {}, {}).size(), 4u);
 }
 
 TEST(WideBaselineFeatures, MatchAcrossAnglesByKind)

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "image_pyramid.h"
 #include "keyframe_map.h"
+#include "object_modelling/registration/image_pyramid.h"
 #include "surface_relocaliser.h"
 #include "tracking_scene.h"
 
@@ -31,17 +31,19 @@ public:
       known.T_session_camera = keyframe.T_session_camera;
       known.frame = keyframe.frame;
       known.frame.object_mask.release();
-      known.pyramid = ImagePyramid(keyframe.frame.gray).copyLevels();
+      known.pyramid = registration::ImagePyramid(keyframe.frame.gray).copyLevels();
       known.median_depth_m = 0.6;
       map_.add(std::move(known));
     }
   }
   const Eigen::Isometry3d& T_world_camera(int i) const { return T_world_cameras_[static_cast<std::size_t>(i)]; }
-  std::optional<DenseAlignment> find(rgbd::Frame frame, const std::optional<Eigen::Isometry3d>& T_hint = {}) const
+  std::optional<registration::DenseAlignment> find(rgbd::Frame frame,
+                                                   const std::optional<Eigen::Isometry3d>& T_hint = {}) const
   {
     frame.object_mask.release();
-    const ImagePyramid pyramid(frame.gray);
-    return relocaliseBySurfaces(DensePyramid(frame, pyramid.levels()), makeThumbnail(frame.gray), map_, T_hint);
+    const registration::ImagePyramid pyramid(frame.gray);
+    return relocaliseBySurfaces(registration::DensePyramid(frame, pyramid.levels()), makeThumbnail(frame.gray), map_,
+                                T_hint);
   }
 
 private:
@@ -80,11 +82,11 @@ TEST(SurfaceRelocaliser, FindsTheRightOneOfFourViews)
     const Eigen::Isometry3d T_world_camera = map.T_world_camera(i) * slightly(0.03);
     const rgbd::Frame frame =
         test_support::renderFrame(plainScene(), TrackingScene::camera(), T_world_camera, sensorNoise(7 + i));
-    const std::optional<DenseAlignment> found = map.find(frame);
+    const std::optional<registration::DenseAlignment> found = map.find(frame);
     ASSERT_TRUE(found) << i;
     EXPECT_TRANSFORM_NEAR(found->T_session_camera, T_world_camera, 0.004, 0.006) << i;
     // A hint that is wrong does no harm.
-    const std::optional<DenseAlignment> misled = map.find(frame, map.T_world_camera((i + 1) % 4));
+    const std::optional<registration::DenseAlignment> misled = map.find(frame, map.T_world_camera((i + 1) % 4));
     ASSERT_TRUE(misled) << i;
     EXPECT_TRANSFORM_NEAR(misled->T_session_camera, T_world_camera, 0.004, 0.006) << i;
   }
@@ -98,7 +100,7 @@ TEST(SurfaceRelocaliser, NeverPlacesAnotherScene)
     for (int i = 0; i < 4; ++i)
     {
       const Eigen::Isometry3d T_world_camera = map.T_world_camera(i) * slightly(0.01);
-      const std::optional<DenseAlignment> found =
+      const std::optional<registration::DenseAlignment> found =
           map.find(test_support::renderFrame(others[k], TrackingScene::camera(), T_world_camera, sensorNoise(i)),
                    T_world_camera);
       EXPECT_FALSE(found) << k << " seen as from " << i;
@@ -109,8 +111,8 @@ TEST(SurfaceRelocaliser, FindsNothingWithoutAMapOrWithoutAView)
 {
   const rgbd::Frame frame =
       test_support::renderFrame(plainScene(), TrackingScene::camera(), test_support::orbitPose(TARGET, 0.6, 0, 0.6));
-  const ImagePyramid pyramid(frame.gray);
-  const DensePyramid dense(frame, pyramid.levels());
+  const registration::ImagePyramid pyramid(frame.gray);
+  const registration::DensePyramid dense(frame, pyramid.levels());
   EXPECT_FALSE(relocaliseBySurfaces(dense, makeThumbnail(frame.gray), KeyframeMap(), {}));
   const SurfaceMap map(plainScene());
   EXPECT_FALSE(map.find(covered(TrackingScene(1), 0)));

@@ -27,19 +27,19 @@ using FeatureVector = std::array<double, FEATURE_COUNT>;
 /// "overlap", "nothing_new", ...
 const char* nameOf(Feature feature);
 
-FeatureVector featuresOf(const PairQuality& quality);
+FeatureVector featuresOf(const registration::PairQuality& quality);
 
 /// Logarithm of how much rarer it is that an object was not turned over between two sessions than that it was, where
 /// a pose says so; 0 where it was turned, or where that is not known.
-double turnPrior(const PairQuality& quality, double same_pose_probability);
+double turnPrior(const registration::PairQuality& quality, double same_pose_probability);
 
 /// Whether, by a pose, the object lay in both sessions as in the other, or nearly so.
-bool saysNotTurned(const PairQuality& quality);
+bool saysNotTurned(const registration::PairQuality& quality);
 
 /// Logarithmic odds of a pose against that none is right.
-double logOdds(const PairQuality& quality, double same_pose_probability);
+double logOdds(const registration::PairQuality& quality, double same_pose_probability);
 
 /// Weight times feature: what each adds to the odds.
-FeatureVector contributions(const PairQuality& quality);
+FeatureVector contributions(const registration::PairQuality& quality);
 
 }  // namespace object_modelling::alignment

@@ -10,7 +10,7 @@ namespace object_modelling::alignment
 struct PairFigure
 {
   const char* name;
-  double PairQuality::*value;
+  double registration::PairQuality::*value;
   bool required = true;  ///< older records lack what was added since: its default
 };
 

@@ -50,13 +50,14 @@ struct AlignmentResult
 /// Places the sessions of one object in the frame of the first of them (where that one fits none, of the first that
 /// does) by all edges together: a session is placed where it is more probable than `min_probability`, given what all
 /// its pairs with the others say. One that is not is left out and named, never left at identity.
-AlignmentResult placeSessions(const std::vector<PartialModel>& parts, double min_probability,
+AlignmentResult placeSessions(const std::vector<registration::PartialModel>& parts, double min_probability,
                               std::vector<AlignmentEdge> edges);
 
 /// Aligns every pair of sessions, and places them. Of `known_edges`, those
 /// that a person decided stand; an accepted one is taken over, at its pose moved into place, where the parts still
 /// bear it out; the rest is found anew. Deterministic.
-AlignmentResult alignSessions(const std::vector<PartialModel>& parts, const std::vector<AlignmentEdge>& known_edges,
-                              const PairAlignmentOptions& options, base::JobControl& control);
+AlignmentResult alignSessions(const std::vector<registration::PartialModel>& parts,
+                              const std::vector<AlignmentEdge>& known_edges, const PairAlignmentOptions& options,
+                              base::JobControl& control);
 
 }  // namespace object_modelling::alignment

@@ -33,7 +33,7 @@ struct CloudFusionOptions
   int min_views = 2;                  ///< fused points seen by fewer keyframes are dropped
   rgbd::ObservationWeightOptions weight;
   /// Pixel of a point in the colour image minus its pixel in the depth image, whose camera the poses are of (see
-  /// refinement::BundleAdjustmentResult).
+  /// bundle_adjustment::BundleAdjustmentResult).
   Eigen::Vector2d color_offset_px = Eigen::Vector2d::Zero();
   std::vector<std::string> violations() const;
 };

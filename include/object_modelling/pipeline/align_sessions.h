@@ -5,6 +5,7 @@
 
 #include "object_modelling/alignment/alignment_by_points.h"
 #include "object_modelling/alignment/session_alignment.h"
+#include "object_modelling/alignment/session_part.h"
 #include "object_modelling/base/job_control.h"
 #include "object_modelling/keyframes/session_store.h"
 #include "object_modelling/pipeline/partial_object.h"
@@ -26,15 +27,16 @@ struct AlignOptions
 std::vector<std::string> sessionsOf(keyframes::SessionStore& store, const std::string& object_id);
 
 /// The object as each session saw it, in this order. FAILED_PRECONDITION for one without keyframes or masks.
-std::vector<alignment::PartialModel> loadParts(keyframes::SessionStore& store,
-                                               const std::vector<std::string>& session_ids,
-                                               const alignment::PartialModelOptions& options,
-                                               base::JobControl& control);
+std::vector<registration::PartialModel> loadParts(keyframes::SessionStore& store,
+                                                  const std::vector<std::string>& session_ids,
+                                                  const alignment::PartialModelOptions& options,
+                                                  base::JobControl& control);
 
 /// Places the sessions of one object relative to the first that fits another (the model frame is set when the object is
 /// built), and keeps what was found for every pair, refused ones too. Where it cannot be kept, the message says so.
-alignment::AlignmentResult alignParts(keyframes::SessionStore& store, const std::vector<alignment::PartialModel>& parts,
-                                      const AlignOptions& options, base::JobControl& control);
+alignment::AlignmentResult alignParts(keyframes::SessionStore& store,
+                                      const std::vector<registration::PartialModel>& parts, const AlignOptions& options,
+                                      base::JobControl& control);
 
 /// Both. One session needs no alignment, and nothing of it is looked at.
 alignment::AlignmentResult alignSessions(keyframes::SessionStore& store, const std::vector<std::string>& session_ids,
@@ -54,8 +56,8 @@ alignment::AlignmentEdge refuseAlignment(keyframes::SessionStore& store, const s
 /// Takes back what a person decided, and forgets what was found.
 void forgetAlignment(keyframes::SessionStore& store, const std::string& session_a, const std::string& session_b);
 /// A person's decision: the pose by the points, as the first candidate.
-alignment::AlignmentEdge acceptByPoints(keyframes::SessionStore& store, const alignment::PartialModel& a,
-                                        const alignment::PartialModel& b,
+alignment::AlignmentEdge acceptByPoints(keyframes::SessionStore& store, const registration::PartialModel& a,
+                                        const registration::PartialModel& b,
                                         const std::vector<alignment::PointPair>& pairs, const AlignOptions& options,
                                         base::JobControl& control);
 

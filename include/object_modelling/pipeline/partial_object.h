@@ -20,7 +20,7 @@ enum class Required
 
 /// Makes of what was found what is required. The best session alone is one that a model has already, whose frame so
 /// stays; or else the one that saw most of the surface; of equals the first. The message of an OK says which.
-void require(Required required, keyframes::SessionStore& store, const std::vector<alignment::PartialModel>& parts,
+void require(Required required, keyframes::SessionStore& store, const std::vector<registration::PartialModel>& parts,
              alignment::AlignmentResult* aligned);
 
 /// The sessions that were not placed, each with the reasons of its pairs.

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "object_modelling/base/job_control.h"
+#include "object_modelling/bundle_adjustment/bundle_adjustment.h"
 #include "object_modelling/keyframes/session_store.h"
-#include "object_modelling/refinement/bundle_adjustment.h"
 #include "object_modelling/segmentation/object_mask_propagator.h"
 
 // The stages between recording and building, each on stored sessions: read, compute, write back in one transaction.
@@ -29,8 +29,8 @@ SegmentReport segmentSession(keyframes::SessionStore& store, const std::string& 
                              const segmentation::ObjectMaskPropagatorOptions& options, base::JobControl& control);
 
 /// Bundle adjustment of one session; writes the poses and the colour offset back if it succeeded.
-refinement::BundleAdjustmentResult refineSession(keyframes::SessionStore& store, const std::string& session_id,
-                                                 refinement::BundleAdjustmentOptions options,
-                                                 base::JobControl& control);
+bundle_adjustment::BundleAdjustmentResult refineSession(keyframes::SessionStore& store, const std::string& session_id,
+                                                        bundle_adjustment::BundleAdjustmentOptions options,
+                                                        base::JobControl& control);
 
 }  // namespace object_modelling::pipeline

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "object_modelling/bundle_adjustment/bundle_adjustment.h"
 #include "object_modelling/keyframes/session_store.h"
-#include "object_modelling/refinement/bundle_adjustment.h"
-#include "object_modelling/refinement/multi_view_icp.h"
-#include "object_modelling/refinement/pose_comparison.h"
+#include "object_modelling/multi_view_icp/multi_view_icp.h"
+#include "object_modelling/multi_view_icp/pose_comparison.h"
 
 namespace object_modelling::pipeline
 {
@@ -21,8 +21,8 @@ enum class RefinementMethod
 struct RefinementOptions
 {
   RefinementMethod method = RefinementMethod::BOTH;
-  refinement::BundleAdjustmentOptions bundle_adjustment;
-  refinement::MultiViewIcpOptions multi_view_icp;  ///< after bundle adjustment its start_error_m is AFTER_BUNDLE_M
+  bundle_adjustment::BundleAdjustmentOptions bundle_adjustment;
+  multi_view_icp::MultiViewIcpOptions multi_view_icp;  ///< after bundle adjustment its start_error_m is AFTER_BUNDLE_M
   std::vector<std::string> violations() const;
 };
 
@@ -33,7 +33,7 @@ constexpr double AFTER_BUNDLE_M = 0.005;
 struct ComparedPoses
 {
   std::string by;  ///< "live" (as they came), or the name of a method
-  refinement::PoseScore score;
+  multi_view_icp::PoseScore score;
 };
 
 struct SessionRefinement
@@ -44,8 +44,8 @@ struct SessionRefinement
   std::vector<Eigen::Isometry3d> T_session_camera;  ///< those that fit best
   std::string chosen = "live";                      ///< which of those compared they are
   std::vector<ComparedPoses> compared;              ///< empty where frames were corrected on the way
-  std::optional<refinement::BundleAdjustmentResult> bundle_adjustment;
-  std::optional<refinement::MultiViewIcpResult> multi_view_icp;
+  std::optional<bundle_adjustment::BundleAdjustmentResult> bundle_adjustment;
+  std::optional<multi_view_icp::MultiViewIcpResult> multi_view_icp;
 };
 
 /// Refines the keyframe poses of one stored session and writes them back in one step if that succeeded; never poses

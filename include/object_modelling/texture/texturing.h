@@ -23,7 +23,7 @@ struct TextureOptions
   /// highlights, shadows, poses that are off. Gray levels, at a place without print; more is allowed at edges.
   double outlier_tolerance = 12;
   /// Pixel of a point in the colour image minus its pixel in the depth image, whose camera the poses are of (see
-  /// refinement::BundleAdjustmentResult).
+  /// bundle_adjustment::BundleAdjustmentResult).
   Eigen::Vector2d color_offset_px = Eigen::Vector2d::Zero();
   /// Per view, from 0: those of one number were taken with the object in one place under one light (one session). Where
   /// they overlap, others are levelled to the same colour. Empty: all are.

@@ -73,7 +73,7 @@ AlignmentReview::AlignmentReview(ros::NodeHandle& node, ros::NodeHandle& private
 }
 
 void AlignmentReview::show(const std::vector<alignment::AlignmentEdge>& edges,
-                           std::vector<alignment::PartialModel> parts)
+                           std::vector<registration::PartialModel> parts)
 {
   if (edges.empty())
     return;
@@ -82,9 +82,9 @@ void AlignmentReview::show(const std::vector<alignment::AlignmentEdge>& edges,
   const alignment::AlignmentEdge& edge = refused == edges.end() ? edges.front() : *refused;
   const std::lock_guard<std::mutex> lock(mutex_);
   parts_.clear();
-  for (alignment::PartialModel& part : parts)
+  for (registration::PartialModel& part : parts)
     if (part.session_id == edge.session_a || part.session_id == edge.session_b)
-      parts_.push_back(std::make_shared<const alignment::PartialModel>(std::move(part)));
+      parts_.push_back(std::make_shared<const registration::PartialModel>(std::move(part)));
   display(edge);
 }
 
@@ -94,9 +94,9 @@ AlignmentScene::PartPointer AlignmentReview::part(const std::string& session_id)
     if (part->session_id == session_id)
       return part;
   base::JobControl control;
-  std::vector<alignment::PartialModel> loaded =
+  std::vector<registration::PartialModel> loaded =
       pipeline::loadParts(store_, { session_id }, options_.align.part, control);
-  parts_.push_back(std::make_shared<const alignment::PartialModel>(std::move(loaded.front())));
+  parts_.push_back(std::make_shared<const registration::PartialModel>(std::move(loaded.front())));
   return parts_.back();
 }
 

@@ -25,7 +25,7 @@ public:
                   const SessionAlignerOptions& options);
 
   /// Shows the first pair that was refused; where none was, the first.
-  void show(const std::vector<alignment::AlignmentEdge>& edges, std::vector<alignment::PartialModel> parts);
+  void show(const std::vector<alignment::AlignmentEdge>& edges, std::vector<registration::PartialModel> parts);
 
 private:
   template <typename Service>

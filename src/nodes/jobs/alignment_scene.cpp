@@ -17,7 +17,7 @@ const AlignmentScene::Color BLUE(86, 180, 233), ORANGE(230, 159, 0);  // Okabe a
 const Eigen::Vector3d LIGHT = Eigen::Vector3d(0.3, -0.6, 0.75).normalized();
 
 /// Turns a session's up to z and its part's centre to the origin.
-Eigen::Isometry3d uprightFrom(const alignment::PartialModel& part)
+Eigen::Isometry3d uprightFrom(const registration::PartialModel& part)
 {
   const Eigen::Vector3d up =
       part.support_plane ? part.support_plane->normal : Eigen::Vector3d(0, -1, 0);  // of a camera held level
@@ -73,7 +73,7 @@ AlignmentScene::AlignmentScene(PartPointer a, PartPointer b, const alignment::Al
     labels_.push_back({ Eigen::Vector3d(0, 0, 2.1 * radius_m), edge.reason, Tone::BAD });
 }
 
-void AlignmentScene::add(const alignment::PartialModel& part, const Eigen::Isometry3d& T_display_part,
+void AlignmentScene::add(const registration::PartialModel& part, const Eigen::Isometry3d& T_display_part,
                          const Color* tint)
 {
   for (std::size_t i = 0; i < part.points.size(); ++i)

@@ -16,7 +16,7 @@ class AlignmentScene
 {
 public:
   using Color = Eigen::Matrix<std::uint8_t, 3, 1>;
-  using PartPointer = std::shared_ptr<const alignment::PartialModel>;
+  using PartPointer = std::shared_ptr<const registration::PartialModel>;
   enum class Tone
   {
     PLAIN,
@@ -44,15 +44,15 @@ public:
   const std::vector<Label>& labels() const { return labels_; }
   double letterHeight_m() const { return letter_m_; }
   Eigen::Vector3d noticePosition() const;  ///< of a line to the person, in front of all
-  const alignment::PartialModel& a() const { return *a_; }
-  const alignment::PartialModel& b() const { return *b_; }
+  const registration::PartialModel& a() const { return *a_; }
+  const registration::PartialModel& b() const { return *b_; }
 
   /// The point of a lone part next to a displayed one; nothing where none is near.
   std::optional<Spot> spotAt(const Eigen::Vector3d& p_display) const;
   Eigen::Vector3d displayed(const Spot& spot) const;
 
 private:
-  void add(const alignment::PartialModel& part, const Eigen::Isometry3d& T_display_part, const Color* tint);
+  void add(const registration::PartialModel& part, const Eigen::Isometry3d& T_display_part, const Color* tint);
 
   PartPointer a_, b_;
   double pitch_m_ = 0, letter_m_ = 0;

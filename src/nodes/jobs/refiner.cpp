@@ -8,7 +8,7 @@ namespace object_modelling::nodes
 {
 namespace
 {
-object_modelling::KeyframeResidual toMessage(const refinement::KeyframeResidual& residual)
+object_modelling::KeyframeResidual toMessage(const bundle_adjustment::KeyframeResidual& residual)
 {
   object_modelling::KeyframeResidual message;
   message.keyframe_id = residual.keyframe_id;
@@ -20,7 +20,7 @@ object_modelling::KeyframeResidual toMessage(const refinement::KeyframeResidual&
   return message;
 }
 
-object_modelling::KeyframeLink toMessage(const refinement::KeyframeLink& link)
+object_modelling::KeyframeLink toMessage(const bundle_adjustment::KeyframeLink& link)
 {
   object_modelling::KeyframeLink message;
   message.keyframe_a = link.keyframe_a;
@@ -34,26 +34,26 @@ object_modelling::KeyframeLink toMessage(const refinement::KeyframeLink& link)
   return message;
 }
 
-void addBundle(const refinement::BundleAdjustmentResult& result, object_modelling::SessionRefinement* message)
+void addBundle(const bundle_adjustment::BundleAdjustmentResult& result, object_modelling::SessionRefinement* message)
 {
   message->iterations = result.iterations;
   message->initial_cost = result.initial_cost;
   message->final_cost = result.final_cost;
   message->color_offset_px = { result.color_offset_px.x(), result.color_offset_px.y() };
-  for (const refinement::KeyframeResidual& residual : result.residuals)
+  for (const bundle_adjustment::KeyframeResidual& residual : result.residuals)
     message->residuals.push_back(toMessage(residual));
-  for (const refinement::KeyframeLink& link : result.links)
+  for (const bundle_adjustment::KeyframeLink& link : result.links)
     message->links.push_back(toMessage(link));
   message->left_out.assign(result.left_out.begin(), result.left_out.end());
 }
 
-void addIcp(const refinement::MultiViewIcpResult& result, object_modelling::SessionRefinement* message)
+void addIcp(const multi_view_icp::MultiViewIcpResult& result, object_modelling::SessionRefinement* message)
 {
   message->icp_status = ros_bridge::toMessage(result.status);
   message->icp_iterations = result.iterations;
   message->icp_rmse_m = result.rmse_m;
   message->icp_left_out.assign(result.left_out.begin(), result.left_out.end());
-  for (const refinement::IcpKeyframeResidual& residual : result.residuals)
+  for (const multi_view_icp::IcpKeyframeResidual& residual : result.residuals)
   {
     object_modelling::IcpResidual added;
     added.keyframe_id = residual.keyframe_id;
@@ -61,7 +61,7 @@ void addIcp(const refinement::MultiViewIcpResult& result, object_modelling::Sess
     added.rmse_before_m = residual.rmse_before_m;
     added.rmse_after_m = residual.rmse_after_m;
     added.inlier_ratio = residual.inlier_ratio;
-    for (const refinement::FreeDirection& free : result.free_directions)
+    for (const multi_view_icp::FreeDirection& free : result.free_directions)
       added.free_direction_count += free.keyframe_id == residual.keyframe_id;
     message->icp_residuals.push_back(added);
   }

@@ -28,7 +28,7 @@ struct RefinerOptions
 template <typename Reader>
 void read(Reader& reader, RefinerOptions* options)
 {
-  refinement::BundleAdjustmentOptions& adjustment = options->refinement.bundle_adjustment;
+  bundle_adjustment::BundleAdjustmentOptions& adjustment = options->refinement.bundle_adjustment;
   reader.read("method", options->method);
   reader.read("bundle_adjustment/pixel_sigma_px", adjustment.pixel_sigma_px);
   reader.read("bundle_adjustment/loss_width_sigmas", adjustment.loss_width_sigmas);
@@ -43,7 +43,7 @@ void read(Reader& reader, RefinerOptions* options)
   reader.read("bundle_adjustment/object_only", adjustment.object_only);
   reader.read("bundle_adjustment/threads", adjustment.threads);
   reader.read("bundle_adjustment/seed", adjustment.seed);
-  refinement::MultiViewIcpOptions& icp = options->refinement.multi_view_icp;
+  multi_view_icp::MultiViewIcpOptions& icp = options->refinement.multi_view_icp;
   reader.read("multi_view_icp/object_only", icp.object_only);
   reader.read("multi_view_icp/start_error_m", icp.start_error_m);
   reader.read("multi_view_icp/points_per_keyframe", icp.points_per_keyframe);

@@ -46,7 +46,7 @@ alignment::AlignmentResult SessionAligner::aligned(const object_modelling::Align
   options.required = requiredBy(goal);
   if (goal.session_ids.size() == 1)
     return pipeline::alignSessions(store_, goal.session_ids, options, control);
-  std::vector<alignment::PartialModel> parts = pipeline::loadParts(store_, goal.session_ids, options.part, control);
+  std::vector<registration::PartialModel> parts = pipeline::loadParts(store_, goal.session_ids, options.part, control);
   alignment::AlignmentResult result = pipeline::alignParts(store_, parts, options, control);
   if (!result.left_out.empty())
     result.status.message += "; " + remedyFor(result);

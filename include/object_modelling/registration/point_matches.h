@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "object_modelling/registration/matched_surface.h"
+
+namespace object_modelling::registration
+{
+/// Points of two parts, each in its frame, that local features tell are the same.
+struct PointMatch
+{
+  Eigen::Vector3f a, b;
+};
+
+/// Of every view of a with every view of b: the same point may be matched several times, and most matches may be wrong.
+std::vector<PointMatch> matchPoints(const MatchedSurface& a, const MatchedSurface& b, int threads);
+
+/// Two parts, and what is known of both together.
+struct PartPair
+{
+  PartPair(const MatchedSurface& given_a, const MatchedSurface& given_b, int threads)
+      : a(given_a), b(given_b), matches(matchPoints(given_a, given_b, threads))
+  {
+  }
+  const MatchedSurface &a, &b;
+  std::vector<PointMatch> matches;
+};
+
+/// Matches that the pose brings nearer than `max_distance_m`.
+std::vector<int> upholding(const std::vector<PointMatch>& matches, const Eigen::Isometry3f& T_a_b,
+                           float max_distance_m);
+
+}  // namespace object_modelling::registration

@@ -1,0 +1,215 @@
+#include "icp_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+namespace object_modelling::multi_view_icp
+{
+namespace
+{
+// Neighbouring points err alike (interpolation, calibration, smooth distortion of depth): so many say as much as one.
+constexpr double CORRELATED_POINTS = 30;
+constexpr double UNKNOWN_M = 1, UNKNOWN_RAD = 1;  // sigma of what the pairs say nothing of
+constexpr double FREE_M = 0.02;                   // of points on the surface: a larger sigma is no knowledge
+constexpr double LEVER_M = 0.1;                   // size of an object, by which angles compare with lengths
+constexpr double AXIS_DISTANCE_M = 1;             // a rotation about an axis farther away counts as a translation
+constexpr int DEPTH_STEP_PX = 16;
+
+/// What is left of the information of a pair without what noise pretends to know: A v = lambda N v names the directions
+/// by how much more they are known than by noise (as in the tracker's dense alignment).
+geometry::Matrix6d withoutNoise(const geometry::Matrix6d& A, const geometry::Matrix6d& noise)
+{
+  geometry::Matrix6d N = noise;
+  N.diagonal().array() += 1e-9 * noise.diagonal().maxCoeff() + 1e-12;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<geometry::Matrix6d> solver(A, N);
+  if (solver.info() != Eigen::Success)
+    return geometry::Matrix6d::Zero();
+  const geometry::Matrix6d U = N * solver.eigenvectors();
+  const geometry::Vector6d kept = (solver.eigenvalues().array() - NOISE_FACTOR).max(0.0);
+  return U * kept.asDiagonal() * U.transpose();
+}
+
+/// Mean of what a keyframe sees, in the session frame.
+Eigen::Vector3d centreOf(const rgbd::Frame& frame, bool object_only, const Eigen::Isometry3d& T_session_camera)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (int v = 0; v < frame.depth_m.rows; v += DEPTH_STEP_PX)
+  {
+    for (int u = 0; u < frame.depth_m.cols; u += DEPTH_STEP_PX)
+    {
+      if (!(frame.depthAt_m(u, v) > 0) || (object_only && frame.object_mask.at<std::uint8_t>(v, u) == 0))
+        continue;
+      sum += frame.point(u, v).cast<double>();
+      ++count;
+    }
+  }
+  return T_session_camera * Eigen::Vector3d(sum / std::max(1, count));
+}
+
+FreeDirection directionOf(int keyframe_id, const Eigen::Vector3d& t, const Eigen::Vector3d& r,
+                          const Eigen::Vector3d& centre)
+{
+  FreeDirection free;
+  free.keyframe_id = keyframe_id;
+  free.rotation = AXIS_DISTANCE_M * r.norm() > t.norm();
+  free.axis_session = (free.rotation ? r : t).normalized();
+  if (free.rotation)
+    free.point_on_axis_session = centre + r.cross(t) / r.squaredNorm();
+  return free;
+}
+
+/// Motions of one keyframe that its partners resist by no more than noise. (Summed first: the directions that single
+/// pairs leave free differ a little, so that together they would seem to resist.)
+std::vector<FreeDirection> unresisted(int keyframe_id, const geometry::Matrix6d& A, const geometry::Matrix6d& noise,
+                                      const Eigen::Vector3d& centre)
+{
+  geometry::Matrix6d N = noise;
+  N.diagonal().array() += 1e-9 * noise.diagonal().maxCoeff() + 1e-12;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<geometry::Matrix6d> solver(A, N);
+  std::vector<FreeDirection> directions;
+  for (int i = 0; i < 6; ++i)
+  {
+    if (!(solver.eigenvalues()[i] < NOISE_FACTOR))
+      continue;
+    const geometry::Vector6d motion = solver.eigenvectors().col(i);
+    const Eigen::Vector3d r = motion.tail<3>();
+    directions.push_back(directionOf(keyframe_id, motion.head<3>() + r.cross(centre), r, centre));
+  }
+  return directions;
+}
+
+/// Directions of a pose that are not known, given what it sees about `centre` (session frame).
+std::vector<FreeDirection> unknown(int keyframe_id, const geometry::Matrix6d& covariance, const Eigen::Vector3d& centre)
+{
+  // As displacements: of the centre, and of points LEVER_M from it.
+  geometry::Matrix6d to_centre = geometry::adjoint(Eigen::Isometry3d(Eigen::Translation3d(-centre)));
+  to_centre.bottomRows<3>() *= LEVER_M;
+  const Eigen::SelfAdjointEigenSolver<geometry::Matrix6d> solver(to_centre * covariance * to_centre.transpose());
+  std::vector<FreeDirection> directions;
+  for (int i = 0; i < 6; ++i)
+  {
+    if (!(solver.eigenvalues()[i] > FREE_M * FREE_M))
+      continue;
+    const Eigen::Vector3d t = solver.eigenvectors().col(i).head<3>();
+    const Eigen::Vector3d r = solver.eigenvectors().col(i).tail<3>() / LEVER_M;
+    directions.push_back(directionOf(keyframe_id, t, r, centre));
+  }
+  return directions;
+}
+
+void reportErrors(const std::vector<rgbd::Keyframe>& keyframes, const IcpProblem& problem,
+                  const std::vector<Eigen::Isometry3d>& before, const std::vector<Eigen::Isometry3d>& after,
+                  MultiViewIcpResult* result)
+{
+  const std::vector<IcpError> errors_before = problem.errors(before, after),
+                              errors_after = problem.errors(after, after);
+  std::vector<IcpError> of_before(keyframes.size()), of_after(keyframes.size());
+  for (std::size_t e = 0; e < problem.edges().size(); ++e)
+  {
+    const IcpEdge& edge = problem.edges()[e];
+    result->pairs.push_back({ keyframes[edge.a].id, keyframes[edge.b].id, edge.overlap_ratio, errors_after[e].count,
+                              errors_before[e].rmse_m(), errors_after[e].rmse_m() });
+    for (const int k : { edge.a, edge.b })
+    {
+      of_before[k].add(errors_before[e]);
+      of_after[k].add(errors_after[e]);
+    }
+  }
+  const std::vector<double> ratios = problem.fittingRatios();
+  for (std::size_t k = 0; k < keyframes.size(); ++k)
+  {
+    result->residuals[k].point_count = of_after[k].count;
+    result->residuals[k].rmse_before_m = of_before[k].rmse_m();
+    result->residuals[k].rmse_after_m = of_after[k].rmse_m();
+    result->residuals[k].inlier_ratio = ratios[k];
+  }
+}
+
+/// Covariances and free directions, at the outcome.
+void reportKnowledge(const std::vector<rgbd::Keyframe>& keyframes, const std::vector<int>& bodies, bool object_only,
+                     const IcpProblem& problem, const IcpOutcome& outcome, MultiViewIcpResult* result)
+{
+  std::vector<PairEquations> equations = problem.equations(outcome.T_session_camera);
+  const std::vector<geometry::Matrix6d> noise = problem.noise(outcome.T_session_camera);
+  IcpError all;
+  for (const IcpError& error : problem.errors(outcome.T_session_camera, outcome.T_session_camera))
+    all.add(error);
+  const double variance = all.weight > 0 ? all.squared_sigmas / all.weight : 1;
+  std::vector<geometry::Matrix6d> information_of(keyframes.size(), geometry::Matrix6d::Zero()),
+      noise_of = information_of;
+  for (std::size_t e = 0; e < equations.size(); ++e)
+  {
+    for (const int k : { equations[e].a, equations[e].b })
+    {
+      information_of[k] += equations[e].A;
+      noise_of[k] += noise[e];
+    }
+    equations[e].A = withoutNoise(equations[e].A, noise[e]) / (CORRELATED_POINTS * std::max(variance, 1e-3));
+  }
+  geometry::Vector6d prior;
+  prior << Eigen::Vector3d::Constant(1 / (UNKNOWN_M * UNKNOWN_M)),
+      Eigen::Vector3d::Constant(1 / (UNKNOWN_RAD * UNKNOWN_RAD));
+  const std::vector<geometry::Matrix6d> covariances =
+      motionCovariances(equations, outcome.members, bodies, prior.asDiagonal());
+  for (std::size_t i = 1; i < outcome.members.size(); ++i)
+  {
+    const int k = outcome.members[i];
+    result->covariance[k] = covariances[k];
+    const Eigen::Vector3d centre = centreOf(keyframes[k].frame, object_only, outcome.T_session_camera[k]);
+    std::vector<FreeDirection> free = unresisted(keyframes[k].id, information_of[k], noise_of[k], centre);
+    if (free.empty())
+      free = unknown(keyframes[k].id, covariances[k], centre);
+    result->free_directions.insert(result->free_directions.end(), free.begin(), free.end());
+  }
+}
+}  // namespace
+
+MultiViewIcpResult reportOf(const std::vector<rgbd::Keyframe>& keyframes, const MultiViewIcpOptions& options,
+                            const IcpProblem& problem, const IcpOutcome& outcome)
+{
+  MultiViewIcpResult result;
+  for (const rgbd::Keyframe& keyframe : keyframes)
+  {
+    result.T_session_camera.push_back(keyframe.T_session_camera);
+    result.covariance.push_back(keyframe.covariance);
+    result.residuals.emplace_back();
+    result.residuals.back().keyframe_id = keyframe.id;
+  }
+  result.rmse_m = outcome.rmse_m;
+  result.iterations = static_cast<int>(outcome.rmse_m.size());
+  result.converged = outcome.converged;
+  const bool possible = !outcome.members.empty();
+  for (std::size_t k = 0; k < keyframes.size(); ++k)
+    if (!possible || !std::binary_search(outcome.members.begin(), outcome.members.end(), static_cast<int>(k)))
+      result.left_out.push_back(keyframes[k].id);
+  if (!possible)
+  {
+    result.status = { base::StatusCode::NO_RESULT,
+                      options.bodies.empty()
+                          ? "nothing to align: no two of " + std::to_string(keyframes.size()) +
+                                " keyframes see the same surface" + (options.object_only ? " of the object" : "") +
+                                " and fit; record more slowly, from closer by, or segment the object first"
+                          : "nothing to align: keyframes of different bodies have too little surface in common" };
+    if (keyframes.size() == 1)
+      result.left_out.clear();
+    return result;
+  }
+  result.last_step_m = outcome.last_step.moved_m;
+  result.last_step_rad = outcome.last_step.turned_rad;
+  if (!outcome.converged && options.bodies.empty())
+  {
+    result.status = { base::StatusCode::NO_RESULT, "multi-view icp did not converge within " +
+                                                       std::to_string(result.iterations) +
+                                                       " iterations; raise max_iterations" };
+    return result;
+  }
+  reportErrors(keyframes, problem, result.T_session_camera, outcome.T_session_camera, &result);
+  result.T_session_camera = outcome.T_session_camera;
+  reportKnowledge(keyframes, bodiesOf(options, keyframes.size()), options.object_only, problem, outcome, &result);
+  return result;
+}
+
+}  // namespace object_modelling::multi_view_icp

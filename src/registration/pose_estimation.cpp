@@ -1,0 +1,236 @@
+#include "object_modelling/registration/pose_estimation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <Eigen/Dense>
+
+namespace object_modelling::registration
+{
+namespace
+{
+constexpr double CONVERGED_STEP = 1e-7;  // m and rad
+constexpr double MIN_DEPTH_M = 0.05;
+
+/// Both the point and the measurement come from a depth image.
+double depthSigma_m(double z_m, const PoseEstimationOptions& options)
+{
+  return std::sqrt(2.0) * options.noise_model.axialSigma_m(z_m, 0);
+}
+
+/// Squared reprojection error; infinite behind the camera.
+double squaredError_px(const Correspondence& correspondence, const Eigen::Vector3d& p_camera,
+                       const geometry::PinholeCamera& camera)
+{
+  if (p_camera.z() < MIN_DEPTH_M)
+    return std::numeric_limits<double>::infinity();
+  return (camera.project(p_camera) - correspondence.pixel).squaredNorm();
+}
+
+/// Whether there is a measured depth that fits the predicted one. One that does not (another surface at an edge, colour
+/// and depth exposed at different times) says nothing of the landmark's pixel.
+bool depthCounts(const Correspondence& correspondence, double z_m, const PoseEstimationOptions& options)
+{
+  return std::abs(correspondence.depth_m - z_m) <= options.depth_gate_sigmas * depthSigma_m(z_m, options);
+}
+
+/// Hypotheses are told apart by both: landmarks whose measured depth contradicts count half.
+double score(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
+             const Eigen::Isometry3d& T_camera_session, const PoseEstimationOptions& options)
+{
+  const double squared_gate = options.max_reprojection_error_px * options.max_reprojection_error_px;
+  double sum = 0;
+  for (const Correspondence& correspondence : correspondences)
+  {
+    const Eigen::Vector3d p = T_camera_session * correspondence.p_session;
+    if (squaredError_px(correspondence, p, camera) <= squared_gate)
+      sum += std::isnan(correspondence.depth_m) || depthCounts(correspondence, p.z(), options) ? 1.0 : 0.5;
+  }
+  return sum;
+}
+
+/// Standard deviation of one coordinate of the reprojection errors, from their median; those beyond twice the gate are
+/// left out.
+double robustSigma_px(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
+                      const Eigen::Isometry3d& T_camera_session, const PoseEstimationOptions& options)
+{
+  std::vector<double> errors_px;
+  for (const Correspondence& correspondence : correspondences)
+  {
+    const double squared = squaredError_px(correspondence, T_camera_session * correspondence.p_session, camera);
+    if (squared <= 4 * options.max_reprojection_error_px * options.max_reprojection_error_px)
+      errors_px.push_back(std::sqrt(squared));
+  }
+  if (errors_px.empty())
+    return options.pixel_sigma_px;
+  const auto middle = errors_px.begin() + static_cast<std::ptrdiff_t>(errors_px.size() / 2);
+  std::nth_element(errors_px.begin(), middle, errors_px.end());
+  // The median of a two-dimensional error is 1.18 standard deviations of one coordinate.
+  return *middle / 1.18;
+}
+
+geometry::NormalEquations linearise(const std::vector<Correspondence>& correspondences,
+                                    const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_camera_session,
+                                    const PoseEstimationOptions& options)
+{
+  geometry::NormalEquations equations;
+  const auto add = [&equations](const Eigen::Matrix<double, 1, 6>& jacobian, double residual, double sigma)
+  { equations.add(jacobian, residual, geometry::huberWeight(residual / sigma) / (sigma * sigma)); };
+  const double squared_gate = options.max_reprojection_error_px * options.max_reprojection_error_px;
+  for (const Correspondence& correspondence : correspondences)
+  {
+    const Eigen::Vector3d p = T_camera_session * correspondence.p_session;
+    if (squaredError_px(correspondence, p, camera) > squared_gate)
+      continue;
+    const double inverse_z = 1 / p.z();
+    Eigen::Matrix<double, 3, 6> dp;
+    dp << Eigen::Matrix3d::Identity(),
+        (Eigen::Matrix3d() << 0, p.z(), -p.y(), -p.z(), 0, p.x(), p.y(), -p.x(), 0).finished();
+    const Eigen::Vector2d residual = camera.project(p) - correspondence.pixel;
+    const Eigen::Matrix<double, 1, 6> du = camera.fx * inverse_z * (dp.row(0) - p.x() * inverse_z * dp.row(2));
+    const Eigen::Matrix<double, 1, 6> dv = camera.fy * inverse_z * (dp.row(1) - p.y() * inverse_z * dp.row(2));
+    add(du, residual.x(), options.pixel_sigma_px);
+    add(dv, residual.y(), options.pixel_sigma_px);
+    if (depthCounts(correspondence, p.z(), options))
+      add(dp.row(2), p.z() - correspondence.depth_m, depthSigma_m(p.z(), options));
+  }
+  return equations;
+}
+
+int hypothesesNeeded(double inlier_ratio, const PoseEstimationOptions& options)
+{
+  const double clean = std::pow(inlier_ratio, 3);
+  if (clean <= 1e-6)
+    return options.max_hypotheses;
+  if (clean >= 1 - 1e-6)
+    return 1;
+  const double needed = std::log(1 - options.confidence_ratio) / std::log(1 - clean);
+  return static_cast<int>(std::min<double>(options.max_hypotheses, std::ceil(needed)));
+}
+
+/// Least squares with a fixed gate.
+PoseEstimate solve(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
+                   const Eigen::Isometry3d& T_session_camera_start, const PoseEstimationOptions& options,
+                   const QuadraticTerm* term)
+{
+  PoseEstimate estimate;
+  Eigen::Isometry3d T_camera_session = T_session_camera_start.inverse();
+  const auto equations_at = [&](const Eigen::Isometry3d& T)
+  {
+    geometry::NormalEquations equations = linearise(correspondences, camera, T, options);
+    if (term)
+      equations += term->at(T);
+    return equations;
+  };
+  for (int iteration = 0; iteration < options.max_iterations; ++iteration)
+  {
+    const geometry::NormalEquations equations = equations_at(T_camera_session);
+    const Eigen::LDLT<geometry::Matrix6d> solver(equations.A);
+    if (solver.info() != Eigen::Success || solver.rcond() < 1e-12)
+      return estimate;
+    const geometry::Vector6d step = solver.solve(equations.b);
+    T_camera_session = geometry::normalised(geometry::isometryFromVector(step) * T_camera_session);
+    if (step.cwiseAbs().maxCoeff() < CONVERGED_STEP)
+      break;
+  }
+  double squared_sum = 0;
+  const double squared_gate = options.max_reprojection_error_px * options.max_reprojection_error_px;
+  estimate.inliers.assign(correspondences.size(), 0);
+  for (std::size_t i = 0; i < correspondences.size(); ++i)
+  {
+    const double squared = squaredError_px(correspondences[i], T_camera_session * correspondences[i].p_session, camera);
+    if (squared > squared_gate)
+      continue;
+    estimate.inliers[i] = 1;
+    ++estimate.inlier_count;
+    squared_sum += squared;
+  }
+  if (estimate.inlier_count < 4 && !term)
+    return estimate;
+  estimate.valid = true;
+  estimate.T_session_camera = T_camera_session.inverse();
+  estimate.reprojection_rmse_px = std::sqrt(squared_sum / std::max(1, estimate.inlier_count));
+  estimate.covariance = equations_at(T_camera_session).A.inverse();
+  return estimate;
+}
+
+}  // namespace
+
+geometry::NormalEquations QuadraticTerm::at(const Eigen::Isometry3d& T) const
+{
+  geometry::NormalEquations moved = equations;
+  moved.b -= equations.A * geometry::vectorFromIsometry(T * T_camera_session.inverse());
+  return moved;
+}
+
+PoseEstimate refinePose(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
+                        const Eigen::Isometry3d& T_session_camera_start, const PoseEstimationOptions& options,
+                        const QuadraticTerm* term)
+{
+  PoseEstimationOptions gated = options;
+  gated.max_reprojection_error_px = 2 * options.max_reprojection_error_px;
+  gated.max_iterations = 3;
+  PoseEstimate rough = solve(correspondences, camera, T_session_camera_start, gated, term);
+  if (!rough.valid)
+    return rough;
+  const double sigma_px = robustSigma_px(correspondences, camera, rough.T_session_camera.inverse(), options);
+  gated.pixel_sigma_px = std::max(options.min_pixel_sigma_px, sigma_px);
+  // Three standard deviations, between once and twice the option: motion blur and a rolling shutter widen the errors of
+  // a whole frame.
+  gated.max_reprojection_error_px = std::clamp(3 * std::sqrt(2.0) * sigma_px, options.max_reprojection_error_px,
+                                               2 * options.max_reprojection_error_px);
+  gated.max_iterations = options.max_iterations;
+  PoseEstimate estimate = solve(correspondences, camera, rough.T_session_camera, gated, term);
+  const Eigen::Isometry3d T_camera_session = estimate.T_session_camera.inverse();
+  const double squared_gate = options.max_reprojection_error_px * options.max_reprojection_error_px;
+  for (std::size_t i = 0; i < estimate.inliers.size(); ++i)
+    estimate.close_count +=
+        estimate.inliers[i] &&
+        squaredError_px(correspondences[i], T_camera_session * correspondences[i].p_session, camera) <= squared_gate;
+  return estimate;
+}
+
+PoseEstimate estimatePose(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
+                          const Eigen::Isometry3d& T_session_camera_prior, std::uint64_t seed,
+                          const PoseEstimationOptions& options)
+{
+  const std::size_t count = correspondences.size();
+  if (count < 4)
+    return {};
+  std::vector<std::size_t> with_depth;
+  for (std::size_t i = 0; i < count; ++i)
+    if (!std::isnan(correspondences[i].depth_m))
+      with_depth.push_back(i);
+
+  Eigen::Isometry3d T_best = T_session_camera_prior;
+  double best_score = score(correspondences, camera, T_best.inverse(), options);
+  if (with_depth.size() >= 3)
+  {
+    std::mt19937_64 generator(seed);
+    int needed = hypothesesNeeded(best_score / static_cast<double>(count), options);
+    for (int drawn = 0; drawn < needed; ++drawn)
+    {
+      Eigen::Matrix3Xd p_session(3, 3), p_camera(3, 3);
+      for (int k = 0; k < 3; ++k)
+      {
+        const Correspondence& drawn_one = correspondences[with_depth[generator() % with_depth.size()]];
+        p_session.col(k) = drawn_one.p_session;
+        p_camera.col(k) = camera.unproject(drawn_one.pixel.x(), drawn_one.pixel.y(), drawn_one.depth_m);
+      }
+      Eigen::Isometry3d T_session_camera;
+      if (!geometry::rigidTransformFromPoints(p_session, p_camera, &T_session_camera))
+        continue;
+      const double drawn_score = score(correspondences, camera, T_session_camera.inverse(), options);
+      if (drawn_score <= best_score)
+        continue;
+      best_score = drawn_score;
+      T_best = T_session_camera;
+      needed = hypothesesNeeded(best_score / static_cast<double>(count), options);
+    }
+  }
+  return refinePose(correspondences, camera, T_best, options);
+}
+
+}  // namespace object_modelling::registration
