@@ -16,18 +16,19 @@ constexpr float MAX_FEATURE_DISTANCE_M = 0.004F, MAX_FEATURE_RATIO = 0.08F;  // 
 constexpr float SPACE_SIGMAS = 3;
 constexpr float SPACE_MARGIN_M = 0.004F;  // registration and calibration, beyond noise
 
-/// Sums for the correlation of the slopes of the colours.
+/// Sums for the correlation of the slopes of the colours. Either part is the fixed one once, so that it is that within
+/// pairs without order (intraclass, Fisher 1925): slopes that are steeper in one part are not all alike.
 struct EdgeComparison
 {
-  double aa = 0, bb = 0, ab = 0;
+  double ff = 0, mm = 0, fm = 0;
 
-  void add(const ColorGradient& of_a, const ColorGradient& of_b)
+  void add(const ColorGradient& of_fixed, const ColorGradient& of_moving)
   {
-    aa += of_a.squaredNorm();
-    bb += of_b.squaredNorm();
-    ab += of_a.cwiseProduct(of_b).sum();
+    ff += of_fixed.squaredNorm();
+    mm += of_moving.squaredNorm();
+    fm += of_fixed.cwiseProduct(of_moving).sum();
   }
-  double strength() const { return std::sqrt(aa * bb); }
+  double strength() const { return std::sqrt(ff * mm); }
 };
 
 /// What one part's points meet in the other.
@@ -112,13 +113,13 @@ double turn_rad(const MatchedSurface& a, const MatchedSurface& b, const Eigen::I
 void compareEdges(const Meeting& b_on_a, const Meeting& a_on_b, PairQuality* quality)
 {
   EdgeComparison both = b_on_a.edges;
-  both.aa += a_on_b.edges.aa;
-  both.bb += a_on_b.edges.bb;
-  both.ab += a_on_b.edges.ab;
+  both.ff += a_on_b.edges.ff;
+  both.mm += a_on_b.edges.mm;
+  both.fm += a_on_b.edges.fm;
   const double same = b_on_a.same + a_on_b.same;
   if (both.strength() <= 1e-9 * same)
     return;
-  quality->edge_agreement = both.ab / both.strength();
+  quality->edge_agreement = both.fm / both.strength();
   quality->edge_strength = std::sqrt(both.strength() / same);
 }
 
