@@ -1,8 +1,11 @@
 #include "object_modelling/alignment/pair_evidence.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -113,6 +116,131 @@ TEST(PairEvidence, HoldsAHandleThatIsElsewhereAgainstAPose)
   registration::PairQuality handle = good();
   handle.fsv_ratio = 0.06;
   EXPECT_LT(logOdds(handle, 0.01), logOdds(good(), 0.01) - 2);
+}
+
+TEST(PairEvidence, HasKnownValues)
+{
+  PairQuality quality = good();
+  quality.overlap_ratio = 0.1;
+  EXPECT_NEAR(valueOf(Feature::OVERLAP, quality), -0.2, 1e-12);
+  quality.fsv_ratio = 0.004;
+  EXPECT_NEAR(valueOf(Feature::SPACE, quality), -std::log(2), 1e-12);
+  EXPECT_NEAR(valueOf(Feature::THROUGH, quality), -0.08, 1e-12);
+  quality.fsv_ratio = 1;
+  EXPECT_NEAR(valueOf(Feature::SPACE, quality), -std::log(251), 1e-12);
+  EXPECT_NEAR(valueOf(Feature::THROUGH, quality), -2, 1e-12) << "0.1 is the most";
+  // Roughness 0.4 mm and 0.3 mm of fused surfaces: 0.5 mm.
+  quality.roughness_m = 4e-4;
+  quality.rmse_m = 5e-4 * std::exp(1);
+  EXPECT_NEAR(valueOf(Feature::FIT, quality), -1, 1e-12);
+  // 0.5 mm and 1.2 mm of planes: 1.3 mm. A gap of 1.3 mm, and of any number of them.
+  quality.roughness_m = 5e-4;
+  quality.contact_gap_m = 0.0013;
+  EXPECT_NEAR(valueOf(Feature::CONTACT, quality), -8 * (1 - std::exp(-1.0 / 16)), 1e-9);
+  quality.contact_gap_m = 1;
+  EXPECT_NEAR(valueOf(Feature::CONTACT, quality), -8, 1e-9);
+  quality.features_upheld = std::exp(2) - 1;
+  EXPECT_NEAR(valueOf(Feature::FEATURES, quality), 2, 1e-12);
+}
+
+TEST(PairEvidence, HasKnownValuesOfPrint)
+{
+  // Variance 0.01 of the colours, 0.0025 of their slopes: as much as between sessions.
+  PairQuality quality = good();
+  quality.texture = 0.1;
+  quality.edge_strength = 0.05;
+  quality.color_agreement = quality.edge_agreement = 1;
+  EXPECT_NEAR(valueOf(Feature::PRINT, quality), std::log(0.02 / 0.0115), 1e-12);
+  EXPECT_NEAR(valueOf(Feature::COLOR, quality), std::log(2), 1e-12);
+  EXPECT_NEAR(valueOf(Feature::EDGES, quality), std::log(2), 1e-12);
+  quality.color_agreement = quality.edge_agreement = 0;
+  EXPECT_NEAR(valueOf(Feature::COLOR, quality), 0, 1e-12);
+  EXPECT_NEAR(valueOf(Feature::EDGES, quality), 0, 1e-12);
+  quality.color_agreement = quality.edge_agreement = -1;
+  EXPECT_NEAR(valueOf(Feature::COLOR, quality), std::log(0.02 / 0.03), 1e-12);
+  EXPECT_NEAR(valueOf(Feature::EDGES, quality), std::log(0.005 / 0.0075), 1e-12);
+  quality.light_variance = 0.02;
+  EXPECT_NEAR(valueOf(Feature::COLOR, quality), std::log(2), 1e-12) << "light explains all of it";
+  quality.light_variance = 1;
+  EXPECT_NEAR(valueOf(Feature::COLOR, quality), std::log(2), 1e-12) << "and no more than that";
+  quality.overlap_ratio = 0.1;
+  EXPECT_NEAR(valueOf(Feature::COLOR, quality), std::log(2) / 3, 1e-12) << "a third of enough overlap";
+}
+
+/// The log odds as one figure goes from one value to another, all else as of a pose that is right.
+std::vector<double> sweep(double PairQuality::*figure, double from, double to, PairQuality quality = good())
+{
+  constexpr int STEPS = 50;
+  std::vector<double> odds;
+  for (int i = 0; i <= STEPS; ++i)
+  {
+    quality.*figure = from + (to - from) * i / STEPS;
+    odds.push_back(logOdds(quality, 0.01));
+  }
+  return odds;
+}
+
+/// Nowhere down, and up by something in all.
+void expectRising(const std::vector<double>& odds, const char* what)
+{
+  EXPECT_TRUE(std::is_sorted(odds.begin(), odds.end())) << what;
+  EXPECT_GT(odds.back(), odds.front() + 0.1) << what;
+}
+
+TEST(PairEvidence, OddsOnlyRiseAsAPoseFitsBetter)
+{
+  expectRising(sweep(&PairQuality::overlap_ratio, 0, 1), "overlap");
+  expectRising(sweep(&PairQuality::fsv_ratio, 1, 0), "empty space");
+  expectRising(sweep(&PairQuality::rmse_m, 0.01, 0), "distance");
+  expectRising(sweep(&PairQuality::contact_gap_m, 0.05, 0), "gap");
+  expectRising(sweep(&PairQuality::color_agreement, -1, 1), "colours");
+  expectRising(sweep(&PairQuality::edge_agreement, -1, 1), "slopes");
+  expectRising(sweep(&PairQuality::features_upheld, 0, 500), "features");
+  expectRising(sweep(&PairQuality::turn_rad, 0, M_PI), "turn");
+  PairQuality opposite = good();
+  opposite.color_agreement = opposite.edge_agreement = -1;
+  expectRising(sweep(&PairQuality::light_variance, 0, 0.1, opposite), "light");
+  expectRising(sweep(&PairQuality::texture, 1, 0, opposite), "print that disagrees");
+  expectRising(sweep(&PairQuality::edge_strength, 1, 0, opposite), "slopes that disagree");
+  expectRising(sweep(&PairQuality::edge_strength, 0, 1), "slopes that agree");
+  PairQuality off = good();
+  off.rmse_m = off.contact_gap_m = 0.003;
+  expectRising(sweep(&PairQuality::roughness_m, 0, 0.002, off), "roughness, of what is off");
+}
+
+TEST(PairEvidence, OddsRiseWithHowOftenObjectsStayAsTheyLay)
+{
+  PairQuality stayed = good();
+  stayed.turn_rad = 0;
+  double last = -INFINITY;
+  for (const double probability : { 0.0, 0.001, 0.01, 0.1, 0.5, 0.9, 1.0 })
+  {
+    EXPECT_GT(logOdds(stayed, probability), last) << probability;
+    EXPECT_TRUE(std::isfinite(logOdds(stayed, probability))) << probability;
+    EXPECT_EQ(logOdds(good(), probability), logOdds(good(), 0.5)) << "it was turned";
+    last = logOdds(stayed, probability);
+  }
+}
+
+TEST(PairEvidence, SaysNotTurnedUpToHalfWayBetween15And30Degrees)
+{
+  PairQuality quality = good();
+  for (const auto& [degrees, stayed] : { std::pair(0, true), { 15, true }, { 22, true }, { 23, false }, { 90, false } })
+  {
+    quality.turn_rad = degrees * M_PI / 180;
+    EXPECT_EQ(saysNotTurned(quality), stayed) << degrees;
+  }
+  quality.turn_rad = -1;
+  EXPECT_FALSE(saysNotTurned(quality)) << "not known";
+}
+
+TEST(PairEvidence, OfDegenerateFiguresIsFinite)
+{
+  PairQuality exact;
+  exact.overlap_ratio = exact.color_agreement = exact.edge_agreement = exact.texture = exact.edge_strength = 1;
+  for (const PairQuality& quality : { PairQuality(), exact })
+    for (std::size_t i = 0; i < FEATURE_COUNT; ++i)
+      EXPECT_TRUE(std::isfinite(featuresOf(quality)[i])) << nameOf(static_cast<Feature>(i));
 }
 
 TEST(PairEvidence, AddsUp)
