@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "edge_graph.h"
+#include "edge_tree.h"
 #include "object_modelling/geometry/transform.h"
 
 namespace object_modelling::alignment
@@ -116,28 +116,65 @@ double logOddsOf(const EdgeGraph& graph, const Placement& placed)
   return sum;
 }
 
-/// Takes out, the least probable first, what the others do not bear out, and puts the rest where they say.
+/// Probability that some of the sessions belong to the others as they are placed, by all edges between the two.
+double jointProbability(const EdgeGraph& graph, const std::vector<int>& sessions, const Placement& placed)
+{
+  const auto within = [&](int session) { return std::count(sessions.begin(), sessions.end(), session) > 0; };
+  double odds = CHANCE, none = 1;
+  for (int edge = 0; edge < graph.edges(); ++edge)
+    if (graph.usable(edge) && graph.holds(edge, placed) &&
+        within(graph.ends(edge).first) != within(graph.ends(edge).second))
+    {
+      odds *= graph.support(edge, graph.agreeing(edge, placed));
+      none *= graph.doubt(edge);
+    }
+  return odds / (odds + none);
+}
+
+/// Sessions that are less probable than needed where they are placed: one, or several that bear each other out but not
+/// that they belong to the rest.
+std::vector<int> leastProbable(const EdgeGraph& graph, double min_probability, const Placement& placed)
+{
+  std::vector<int> least;
+  double least_probability = min_probability;
+  for (const auto& [session, pose] : placed)
+  {
+    Placement others = placed;
+    others.erase(session);
+    const Choice choice = bestPose(graph, session, others);
+    const bool stays = graph.between(choice.pose.T_reference_session, pose.T_reference_session, session).small();
+    if ((stays ? choice.probability : 0) < least_probability)
+    {
+      least = { session };
+      least_probability = stays ? choice.probability : 0;
+    }
+  }
+  const std::vector<int> tree = treeOf(graph, placed);
+  for (const int edge : tree)
+  {
+    const std::vector<int> sessions = cutOff(graph, tree, edge, placed);
+    if (sessions.size() < 2)
+      continue;
+    const double probability = jointProbability(graph, sessions, placed);
+    if (probability < least_probability)
+    {
+      least = sessions;
+      least_probability = probability;
+    }
+  }
+  return least;
+}
+
+/// Takes out, the least probable first, what the others do not bear out.
 void settle(const EdgeGraph& graph, double min_probability, Placement* placed)
 {
   while (placed->size() > 2)
   {
-    int least = -1;
-    double least_probability = min_probability;
-    for (const auto& [session, pose] : *placed)
-    {
-      Placement others = *placed;
-      others.erase(session);
-      const Choice choice = bestPose(graph, session, others);
-      const bool stays = graph.between(choice.pose.T_reference_session, pose.T_reference_session, session).small();
-      if ((stays ? choice.probability : 0) < least_probability)
-      {
-        least = session;
-        least_probability = stays ? choice.probability : 0;
-      }
-    }
-    if (least < 0)
+    const std::vector<int> least = leastProbable(graph, min_probability, *placed);
+    if (least.empty())
       return;
-    placed->erase(least);
+    for (const int session : least)
+      placed->erase(session);
   }
 }
 
@@ -163,56 +200,6 @@ Placement bestPlacement(const EdgeGraph& graph, double min_probability)
       }
     }
   return best;
-}
-
-/// The maximum spanning tree on the probability, of the edges that agree (Kruskal 1956).
-std::vector<int> treeOf(const EdgeGraph& graph, const Placement& placed)
-{
-  std::vector<int> order, tree;
-  for (int edge = 0; edge < graph.edges(); ++edge)
-    if (graph.usable(edge) && graph.holds(edge, placed) && graph.agreeing(edge, placed))
-      order.push_back(edge);
-  const auto probability = [&](int edge) { return graph.probability(edge, *graph.agreeing(edge, placed)); };
-  std::stable_sort(order.begin(), order.end(), [&](int x, int y) { return probability(x) > probability(y); });
-  std::map<int, int> component;
-  for (const auto& [session, pose] : placed)
-    component[session] = session;
-  for (const int edge : order)
-  {
-    const int from = component[graph.ends(edge).first], to = component[graph.ends(edge).second];
-    if (from == to)
-      continue;
-    tree.push_back(edge);
-    for (auto& [session, of] : component)
-      if (of == from)
-        of = to;
-  }
-  return tree;
-}
-
-/// The sessions that the tree connects to the first one, in its frame.
-Placement placedBy(const EdgeGraph& graph, const std::vector<int>& tree, const Placement& near)
-{
-  Placement placed;
-  if (near.empty())
-    return placed;
-  placed[near.begin()->first] = {};
-  for (bool grows = true; grows;)
-  {
-    grows = false;
-    for (const int edge : tree)
-    {
-      const auto& [a, b] = graph.ends(edge);
-      if (placed.count(a) == placed.count(b))
-        continue;
-      const int to = placed.count(a) ? b : a;
-      const std::size_t candidate = *graph.agreeing(edge, near);
-      placed[to] = { graph.along(edge, candidate, to, placed.at(graph.otherEnd(edge, to)).T_reference_session), edge,
-                     graph.probability(edge, candidate) };
-      grows = true;
-    }
-  }
-  return placed;
 }
 
 /// Sets what became of each edge. One that agrees by another than its best pose is right by that one.

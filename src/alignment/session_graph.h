@@ -9,7 +9,8 @@ namespace object_modelling::alignment
 /// edge that the others contradict is found out, takes another of its poses if they agree with that one, and two edges
 /// that alone would be refused carry each other. Sets `used` and `reason` of the edges. Poses are compared where the
 /// object is: session frames are at the cameras. The most probable placement of all that are tried is taken, in the
-/// frame of its first session; a session that is less probable than `min_probability` is left out.
+/// frame of its first session; a session that is less probable than `min_probability` is left out, and so are several
+/// that bear each other out where what joins them to the rest is.
 std::vector<SessionPlacement> placeByEdges(const std::vector<registration::PartialModel>& parts, double min_probability,
                                            std::vector<AlignmentEdge>* edges);
 

@@ -61,6 +61,10 @@ TEST_F(SessionGraph, PlacesAChainThatNothingElseHolds)
   std::vector<AlignmentEdge> chain = ring(6, 0.8);
   chain.pop_back();
   expectTruth(place(chain), 6);
+  chain[2].candidates[0].quality.probability = 0.5;
+  const AlignmentResult broken = place(chain);
+  expectTruth(broken, 3);
+  EXPECT_EQ(broken.left_out.size(), 3u) << "the longer half alone is placed";
 }
 
 TEST_F(SessionGraph, FindsTheWrongPairAmongFifteen)
@@ -126,6 +130,34 @@ TEST_F(SessionGraph, PlacesTheMoreProbableOfTwoHalves)
   // One edge that holds joins the halves.
   edges.back() = edge(1, 4, 0.9);
   expectTruth(place(edges), 5);
+}
+
+TEST_F(SessionGraph, JoinsTwoSureHalvesByNoLessThanOneSession)
+{
+  // Inside either half all bear each other out. What joins the halves must be as probable by itself.
+  const std::vector<AlignmentEdge> halves = { edge(0, 1, 0.95), edge(1, 2, 0.95), edge(2, 0, 0.95),
+                                              edge(3, 4, 0.97), edge(4, 5, 0.97), edge(5, 3, 0.97) };
+  const auto bridged = [&](int count, double probability, bool accepted)
+  {
+    std::vector<AlignmentEdge> edges = halves;
+    for (int i = 0; i < count; ++i)
+    {
+      edges.push_back(edge(2 - i, 3 + i, probability));
+      edges.back().accepted = accepted;
+      edges.back().reason = accepted ? "" : "two poses score alike";
+    }
+    return place(edges);
+  };
+  for (const double probability : { 0.1, 0.3, 0.5 })
+  {
+    const AlignmentResult one = bridged(1, probability, false);
+    expectTruth(one, 3);
+    EXPECT_EQ(one.left_out, (std::vector<std::string>{ "a", "b", "c" }));
+    EXPECT_FALSE(one.edges.back().accepted) << probability;
+    EXPECT_NE(one.status.message.find("two poses score alike"), std::string::npos) << one.status.message;
+  }
+  expectTruth(bridged(1, 0.6, true), 6);
+  expectTruth(bridged(2, 0.4, false), 6);
 }
 
 TEST_F(SessionGraph, LeavesOutWhereARingContradictsItself)
