@@ -26,7 +26,7 @@ protected:
       const Eigen::Quaterniond R{ normal(random), normal(random), normal(random), normal(random) };
       T_session_object_.push_back(geometry::isometryFrom(
           R.normalized(), { 0.1 * normal(random), 0.1 * normal(random), 0.8 + 0.1 * normal(random) }));
-      PartialModel part;
+      registration::PartialModel part;
       part.session_id = nameOf(i);
       const Eigen::Vector3f centre = T_session_object_.back().translation().cast<float>();
       part.points = { centre - Eigen::Vector3f::Constant(0.05F), centre + Eigen::Vector3f::Constant(0.05F) };
@@ -62,7 +62,7 @@ protected:
     return Eigen::Isometry3d(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d(1, 2, 3).normalized()));
   }
 
-  std::vector<PartialModel> parts_;
+  std::vector<registration::PartialModel> parts_;
   std::vector<Eigen::Isometry3d> T_session_object_;
 };
 

@@ -1,4 +1,4 @@
-#include "../../src/alignment/edge_graph.h"
+#include "edge_graph.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "../../src/alignment/pair_decision.h"
+#include "pair_decision.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "made_part.h"
 #include "object_modelling/alignment/pair_evidence.h"
+#include "registration/made_part.h"
 
 namespace object_modelling::alignment
 {
@@ -14,9 +14,9 @@ namespace
 const Eigen::Vector3f X = Eigen::Vector3f::UnitX(), Y = Eigen::Vector3f::UnitY(), Z = Eigen::Vector3f::UnitZ();
 
 /// Figures of a pose that is right: turned over, touching, print that agrees.
-PairQuality good()
+registration::PairQuality good()
 {
-  PairQuality quality;
+  registration::PairQuality quality;
   quality.overlap_ratio = 0.6;
   quality.rmse_m = quality.contact_gap_m = 5e-4;
   quality.foot_m = 0.005;
@@ -29,31 +29,33 @@ PairQuality good()
 }
 
 /// The same of a surface without print: less is known.
-PairQuality bare()
+registration::PairQuality bare()
 {
-  PairQuality quality = good();
+  registration::PairQuality quality = good();
   quality.color_agreement = quality.edge_agreement = quality.texture = quality.edge_strength = 0;
   return quality;
 }
 
-PairCandidate candidate(const PairQuality& quality, const Eigen::Isometry3f& T_a_b = Eigen::Isometry3f::Identity())
+PairCandidate candidate(const registration::PairQuality& quality,
+                        const Eigen::Isometry3f& T_a_b = Eigen::Isometry3f::Identity())
 {
   return { ProposalKind::SHAPE, T_a_b.cast<double>(), quality };
 }
 
 /// A plate about the origin, normal z.
-PartialModel plate(int count_x, int count_y, const ColorAt& color, float spacing_m = SPACING_M)
+registration::PartialModel plate(int count_x, int count_y, const registration::ColorAt& color,
+                                 float spacing_m = registration::SPACING_M)
 {
-  PartialModel part = madePart(spacing_m);
+  registration::PartialModel part = registration::madePart(spacing_m);
   const Eigen::Vector3f corner(static_cast<float>(1 - count_x), static_cast<float>(1 - count_y), 0);
-  addPatch(0.5F * spacing_m * corner, X, Y, count_x, count_y, color, &part);
+  registration::addPatch(0.5F * spacing_m * corner, X, Y, count_x, count_y, color, &part);
   return part;
 }
 
-PairAlignment decided(const PartialModel& a, const PartialModel& b, const std::vector<PairCandidate>& candidates,
-                      const PairAlignmentOptions& options = {})
+PairAlignment decided(const registration::PartialModel& a, const registration::PartialModel& b,
+                      const std::vector<PairCandidate>& candidates, const PairAlignmentOptions& options = {})
 {
-  const Part part_a(a, 1), part_b(b, 1);
+  const registration::MatchedSurface part_a(a, 1), part_b(b, 1);
   PairAlignment result;
   result.accepted = true;
   result.candidates = candidates;
@@ -63,13 +65,13 @@ PairAlignment decided(const PartialModel& a, const PartialModel& b, const std::v
 }
 
 /// Of one candidate, where the parts themselves do not matter.
-PairAlignment decided(const PairQuality& quality, const PairAlignmentOptions& options = {})
+PairAlignment decided(const registration::PairQuality& quality, const PairAlignmentOptions& options = {})
 {
-  const PartialModel any = plate(10, 10, plain);
+  const registration::PartialModel any = plate(10, 10, registration::plain);
   return decided(any, any, { candidate(quality) }, options);
 }
 
-double oddsOf(const PairQuality& quality)
+double oddsOf(const registration::PairQuality& quality)
 {
   return std::exp(logOdds(quality, PairAlignmentOptions().same_pose_probability));
 }
@@ -104,7 +106,7 @@ TEST(PairDecision, AcceptsWhatIsProbableEnough)
 
 TEST(PairDecision, RefusesWithoutACandidate)
 {
-  const PartialModel any = plate(10, 10, plain);
+  const registration::PartialModel any = plate(10, 10, registration::plain);
   const PairAlignment found = decided(any, any, {});
   expectReason(found, "no pose brings as much as 6 % of the surfaces together");
   EXPECT_TRUE(found.candidates.empty());
@@ -112,7 +114,7 @@ TEST(PairDecision, RefusesWithoutACandidate)
 
 TEST(PairDecision, RefusesTooLittleInCommonHoweverProbable)
 {
-  PairQuality quality = good();
+  registration::PairQuality quality = good();
   quality.overlap_ratio = 0.11;
   expectReason(decided(quality), "overlap 11 % below 12 %");
   quality.overlap_ratio = 0.121;
@@ -121,7 +123,7 @@ TEST(PairDecision, RefusesTooLittleInCommonHoweverProbable)
 
 TEST(PairDecision, RefusesEmptySpaceHoweverProbable)
 {
-  PairQuality quality = good();
+  registration::PairQuality quality = good();
   quality.fsv_ratio = 0.051;
   expectReason(decided(quality), "5 % of the surface would be where the other session saw that nothing is");
   EXPECT_GT(decided(quality).candidates[0].quality.probability, 0.9);
@@ -133,7 +135,7 @@ TEST(PairDecision, NamesWhatSpeaksMostAgainstAPose)
 {
   PairAlignmentOptions options;
   options.min_probability = 0.99;
-  PairQuality colors = bare(), contact = bare(), space = bare(), fit = bare(), stayed = bare();
+  registration::PairQuality colors = bare(), contact = bare(), space = bare(), fit = bare(), stayed = bare();
   colors.texture = colors.edge_strength = 0.3;
   colors.color_agreement = colors.edge_agreement = -0.9;
   expectReason(decided(colors, options), "colours disagree (correlation -90 %");
@@ -158,7 +160,7 @@ TEST(PairDecision, SaysWhereOnlyEvidenceIsWanting)
 
 TEST(PairDecision, TakesTheSamePoseOnlyWhereItIsAllowedFor)
 {
-  PairQuality stayed = good();
+  registration::PairQuality stayed = good();
   stayed.turn_rad = 0.1;
   stayed.contact_gap_m = stayed.foot_m;
   const PairAlignment unasked = decided(stayed);
@@ -182,14 +184,14 @@ protected:
   {
     return decided(middle_, all_, candidates);
   }
-  PartialModel middle_ = plate(40, 40, plain), all_ = plate(80, 40, plain);
-  const Eigen::Isometry3f half_ = pose({ 0, 0, 0 }, static_cast<float>(M_PI), Z);
-  const Eigen::Isometry3f quarter_ = pose({ 0, 0, 0 }, static_cast<float>(M_PI) / 2, Z);
+  registration::PartialModel middle_ = plate(40, 40, registration::plain), all_ = plate(80, 40, registration::plain);
+  const Eigen::Isometry3f half_ = registration::pose({ 0, 0, 0 }, static_cast<float>(M_PI), Z);
+  const Eigen::Isometry3f quarter_ = registration::pose({ 0, 0, 0 }, static_cast<float>(M_PI) / 2, Z);
 };
 
 TEST_F(DecisionOfAPlate, SharesTheProbabilityBetweenPosesThatMakeOtherObjects)
 {
-  PairQuality better = good(), worse = good();
+  registration::PairQuality better = good(), worse = good();
   worse.rmse_m *= 1.3;
   ASSERT_TRUE(scoreAlike(better, worse));
   const PairAlignment found = decidedOn({ candidate(better), candidate(worse, quarter_) });
@@ -221,25 +223,27 @@ TEST_F(DecisionOfAPlate, JoinsThePosesThatMakeTheSameObject)
 TEST_F(DecisionOfAPlate, MayLieElsewhereByMoreWhereNobodyLooked)
 {
   // 22 mm along 160 mm, of which 6 mm count as found: a tenth of it lies elsewhere.
-  const std::vector<PairCandidate> two = { candidate(good()), candidate(good(), pose({ 0.022F, 0, 0 }, 0, Z)) };
+  const std::vector<PairCandidate> two = { candidate(good()),
+                                           candidate(good(), registration::pose({ 0.022F, 0, 0 }, 0, Z)) };
   EXPECT_TRUE(decidedOn(two).accepted);
-  middle_.views = { viewAlongZ(1.1F), viewAlongZ(1.1F) };
+  middle_.views = { registration::viewAlongZ(1.1F), registration::viewAlongZ(1.1F) };
   EXPECT_NEAR(elsewhere_percent(decidedOn(two)), 10, 1);
   middle_.views.clear();
-  const std::vector<PairCandidate> far = { candidate(good()), candidate(good(), pose({ 0.04F, 0, 0 }, 0, Z)) };
+  const std::vector<PairCandidate> far = { candidate(good()),
+                                           candidate(good(), registration::pose({ 0.04F, 0, 0 }, 0, Z)) };
   EXPECT_NEAR(elsewhere_percent(decidedOn(far)), 100 * (40 - 6) / 160.0, 1);
 }
 
 /// A plate of 160 x 160 mm, the same after half a turn but for what is printed on it.
-PairAlignment decidedOfHalfTurn(const ColorAt& color, const PairQuality& quality = good())
+PairAlignment decidedOfHalfTurn(const registration::ColorAt& color, const registration::PairQuality& quality = good())
 {
   constexpr int COUNT = 160;
-  const Eigen::Isometry3f half = pose({ 0, 0, 0 }, static_cast<float>(M_PI), Z);
-  const PartialModel printed = plate(COUNT, COUNT, color, 0.001F);
+  const Eigen::Isometry3f half = registration::pose({ 0, 0, 0 }, static_cast<float>(M_PI), Z);
+  const registration::PartialModel printed = plate(COUNT, COUNT, color, 0.001F);
   return decided(printed, printed, { candidate(quality), candidate(quality, half) });
 }
 
-ColorAt label(float side_m, float difference)
+registration::ColorAt label(float side_m, float difference)
 {
   return [=](const Eigen::Vector3f& p)
   {
@@ -256,7 +260,7 @@ TEST(PairDecision, ALabelAloneTellsTwoPosesApart)
   const PairAlignment found = decidedOfHalfTurn(label(0.024F, DIFFERENCE));
   expectReason(found, "two poses 180 deg apart score alike: the shape is symmetric, and the print that both");
   EXPECT_NEAR(found.candidates[0].quality.probability, 0.5, 1e-3);
-  PairQuality pale = good();
+  registration::PairQuality pale = good();
   pale.texture = 0.04;
   expectReason(decidedOfHalfTurn(label(0.024F, DIFFERENCE), pale), "the sides that both sessions see are plain");
 }
@@ -265,7 +269,7 @@ TEST(PairDecision, WhatIsFaintOrSmallIsNoLabel)
 {
   EXPECT_TRUE(decidedOfHalfTurn(label(0.024F, 0.3F)).accepted) << "light and focus may do as much";
   EXPECT_TRUE(decidedOfHalfTurn(label(0.014F, 0.45F)).accepted) << "1.5 % of the points";
-  EXPECT_TRUE(decidedOfHalfTurn(plain).accepted);
+  EXPECT_TRUE(decidedOfHalfTurn(registration::plain).accepted);
 }
 
 TEST(PairDecision, FaintPrintAllOverTellsTwoPosesApart)
@@ -278,11 +282,11 @@ TEST(PairDecision, FaintPrintAllOverTellsTwoPosesApart)
 
 TEST(ScoreAlike, UpToSomeLogOdds)
 {
-  const PairQuality best = bare();
+  const registration::PairQuality best = bare();
   bool alike = false, apart = false;
   for (double factor = 1; factor < 5; factor *= 1.1)
   {
-    PairQuality rival = bare();
+    registration::PairQuality rival = bare();
     rival.rmse_m *= factor;
     const bool near = logOdds(best, 0.5) - logOdds(rival, 0.5) <= 1.2;
     (near ? alike : apart) = true;

@@ -120,7 +120,7 @@ TEST(PairEvidence, HoldsAHandleThatIsElsewhereAgainstAPose)
 
 TEST(PairEvidence, HasKnownValues)
 {
-  PairQuality quality = good();
+  registration::PairQuality quality = good();
   quality.overlap_ratio = 0.1;
   EXPECT_NEAR(valueOf(Feature::OVERLAP, quality), -0.2, 1e-12);
   quality.fsv_ratio = 0.004;
@@ -146,7 +146,7 @@ TEST(PairEvidence, HasKnownValues)
 TEST(PairEvidence, HasKnownValuesOfPrint)
 {
   // Variance 0.01 of the colours, 0.0025 of their slopes: as much as between sessions.
-  PairQuality quality = good();
+  registration::PairQuality quality = good();
   quality.texture = 0.1;
   quality.edge_strength = 0.05;
   quality.color_agreement = quality.edge_agreement = 1;
@@ -168,7 +168,8 @@ TEST(PairEvidence, HasKnownValuesOfPrint)
 }
 
 /// The log odds as one figure goes from one value to another, all else as of a pose that is right.
-std::vector<double> sweep(double PairQuality::*figure, double from, double to, PairQuality quality = good())
+std::vector<double> sweep(double registration::PairQuality::*figure, double from, double to,
+                          registration::PairQuality quality = good())
 {
   constexpr int STEPS = 50;
   std::vector<double> odds;
@@ -189,28 +190,28 @@ void expectRising(const std::vector<double>& odds, const char* what)
 
 TEST(PairEvidence, OddsOnlyRiseAsAPoseFitsBetter)
 {
-  expectRising(sweep(&PairQuality::overlap_ratio, 0, 1), "overlap");
-  expectRising(sweep(&PairQuality::fsv_ratio, 1, 0), "empty space");
-  expectRising(sweep(&PairQuality::rmse_m, 0.01, 0), "distance");
-  expectRising(sweep(&PairQuality::contact_gap_m, 0.05, 0), "gap");
-  expectRising(sweep(&PairQuality::color_agreement, -1, 1), "colours");
-  expectRising(sweep(&PairQuality::edge_agreement, -1, 1), "slopes");
-  expectRising(sweep(&PairQuality::features_upheld, 0, 500), "features");
-  expectRising(sweep(&PairQuality::turn_rad, 0, M_PI), "turn");
-  PairQuality opposite = good();
+  expectRising(sweep(&registration::PairQuality::overlap_ratio, 0, 1), "overlap");
+  expectRising(sweep(&registration::PairQuality::fsv_ratio, 1, 0), "empty space");
+  expectRising(sweep(&registration::PairQuality::rmse_m, 0.01, 0), "distance");
+  expectRising(sweep(&registration::PairQuality::contact_gap_m, 0.05, 0), "gap");
+  expectRising(sweep(&registration::PairQuality::color_agreement, -1, 1), "colours");
+  expectRising(sweep(&registration::PairQuality::edge_agreement, -1, 1), "slopes");
+  expectRising(sweep(&registration::PairQuality::features_upheld, 0, 500), "features");
+  expectRising(sweep(&registration::PairQuality::turn_rad, 0, M_PI), "turn");
+  registration::PairQuality opposite = good();
   opposite.color_agreement = opposite.edge_agreement = -1;
-  expectRising(sweep(&PairQuality::light_variance, 0, 0.1, opposite), "light");
-  expectRising(sweep(&PairQuality::texture, 1, 0, opposite), "print that disagrees");
-  expectRising(sweep(&PairQuality::edge_strength, 1, 0, opposite), "slopes that disagree");
-  expectRising(sweep(&PairQuality::edge_strength, 0, 1), "slopes that agree");
-  PairQuality off = good();
+  expectRising(sweep(&registration::PairQuality::light_variance, 0, 0.1, opposite), "light");
+  expectRising(sweep(&registration::PairQuality::texture, 1, 0, opposite), "print that disagrees");
+  expectRising(sweep(&registration::PairQuality::edge_strength, 1, 0, opposite), "slopes that disagree");
+  expectRising(sweep(&registration::PairQuality::edge_strength, 0, 1), "slopes that agree");
+  registration::PairQuality off = good();
   off.rmse_m = off.contact_gap_m = 0.003;
-  expectRising(sweep(&PairQuality::roughness_m, 0, 0.002, off), "roughness, of what is off");
+  expectRising(sweep(&registration::PairQuality::roughness_m, 0, 0.002, off), "roughness, of what is off");
 }
 
 TEST(PairEvidence, OddsRiseWithHowOftenObjectsStayAsTheyLay)
 {
-  PairQuality stayed = good();
+  registration::PairQuality stayed = good();
   stayed.turn_rad = 0;
   double last = -INFINITY;
   for (const double probability : { 0.0, 0.001, 0.01, 0.1, 0.5, 0.9, 1.0 })
@@ -224,7 +225,7 @@ TEST(PairEvidence, OddsRiseWithHowOftenObjectsStayAsTheyLay)
 
 TEST(PairEvidence, SaysNotTurnedUpToHalfWayBetween15And30Degrees)
 {
-  PairQuality quality = good();
+  registration::PairQuality quality = good();
   for (const auto& [degrees, stayed] : { std::pair(0, true), { 15, true }, { 22, true }, { 23, false }, { 90, false } })
   {
     quality.turn_rad = degrees * M_PI / 180;
@@ -236,9 +237,9 @@ TEST(PairEvidence, SaysNotTurnedUpToHalfWayBetween15And30Degrees)
 
 TEST(PairEvidence, OfDegenerateFiguresIsFinite)
 {
-  PairQuality exact;
+  registration::PairQuality exact;
   exact.overlap_ratio = exact.color_agreement = exact.edge_agreement = exact.texture = exact.edge_strength = 1;
-  for (const PairQuality& quality : { PairQuality(), exact })
+  for (const registration::PairQuality& quality : { registration::PairQuality(), exact })
     for (std::size_t i = 0; i < FEATURE_COUNT; ++i)
       EXPECT_TRUE(std::isfinite(featuresOf(quality)[i])) << nameOf(static_cast<Feature>(i));
 }

@@ -8,7 +8,7 @@
 #include "support/synthetic_scene.h"
 #include "support/transform_matchers.h"
 
-namespace object_modelling::refinement
+namespace object_modelling::bundle_adjustment
 {
 namespace
 {
@@ -202,4 +202,4 @@ TEST(LinkSupport, TakesHalfOfThePoints)
 }
 
 }  // namespace
-}  // namespace object_modelling::refinement
+}  // namespace object_modelling::bundle_adjustment

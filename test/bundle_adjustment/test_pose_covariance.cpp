@@ -7,7 +7,7 @@
 
 #include "support/synthetic_bundle.h"
 
-namespace object_modelling::refinement
+namespace object_modelling::bundle_adjustment
 {
 namespace
 {
@@ -149,4 +149,4 @@ TEST(PoseCovariance, IsZeroWhereNothingIsKnown)
 }
 
 }  // namespace
-}  // namespace object_modelling::refinement
+}  // namespace object_modelling::bundle_adjustment

@@ -8,7 +8,7 @@
 #include "support/handheld_trajectory.h"
 #include "support/transform_matchers.h"
 
-namespace object_modelling::refinement
+namespace object_modelling::bundle_adjustment
 {
 namespace
 {
@@ -136,4 +136,4 @@ TEST(RelaxPoseGraph, LeavesWhatNoEdgeReaches)
 }
 
 }  // namespace
-}  // namespace object_modelling::refinement
+}  // namespace object_modelling::bundle_adjustment

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "support/shapes.h"
 #include "object_modelling/base/status.h"
 #include "object_modelling/mesh/mesh_files.h"
+#include "support/shapes.h"
 #include "support/temp_dir.h"
 #include "support/transform_matchers.h"
 

@@ -1,14 +1,14 @@
-#include "../../src/alignment/pair_icp.h"
+#include "object_modelling/registration/pair_icp.h"
 
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "../../src/alignment/pair_refinement.h"
 #include "made_part.h"
+#include "object_modelling/registration/pair_refinement.h"
 
-namespace object_modelling::alignment
+namespace object_modelling::registration
 {
 namespace
 {
@@ -87,7 +87,7 @@ protected:
   const Eigen::Isometry3f T_a_b_ = T_a_box_ * T_b_box_.inverse();
   const PartialModel model_a_ = placed(boxSides(true, 0, 1), T_a_box_);
   const PartialModel model_b_ = placed(boxSides(false, 0.0007F, 2), T_b_box_);
-  const Part a_{ model_a_, 1 }, b_{ model_b_, 1 };
+  const MatchedSurface a_{ model_a_, 1 }, b_{ model_b_, 1 };
   const Eigen::Vector3f centre_a_ = T_a_box_.translation(), centre_b_ = T_b_box_.translation();
 };
 
@@ -124,7 +124,7 @@ TEST_F(PairIcp, ReachesFarByFewPoints)
 {
   // Three sides in common: of two, shape leaves the direction along them free.
   const PartialModel model = placed(boxSides(true, 0.0007F, 3), T_b_box_);
-  const Part same_sides(model, 1);
+  const MatchedSurface same_sides(model, 1);
   PairIcpOptions coarse;
   coarse.gate_m = 0.02;
   coarse.last_gate_m = 0.006;
@@ -161,7 +161,7 @@ PartialModel plate(const ColorAt& color)
 TEST(PairIcpFreedom, APlainPlateStaysWhereNothingHoldsIt)
 {
   const PartialModel model = plate(plain);
-  const Part part(model, 1);
+  const MatchedSurface part(model, 1);
   const Eigen::Isometry3f start = pose({ 0.003F, -0.002F, 0.002F }, 0.03F, Z);
   const Eigen::Isometry3f T = alignSurfaces(part, part, start, fine(ColorDetail::BLURRED));
   EXPECT_NEAR(T.translation().x(), 0.003, 2e-4);
@@ -173,7 +173,7 @@ TEST(PairIcpFreedom, APlainPlateStaysWhereNothingHoldsIt)
 TEST(PairIcpFreedom, PrintHoldsAPlate)
 {
   const PartialModel model = plate(print);
-  const Part part(model, 1);
+  const MatchedSurface part(model, 1);
   for (const ColorDetail detail : { ColorDetail::BLURRED, ColorDetail::SHARP })
     for (const float sign : { 1.0F, -1.0F })
     {
@@ -188,10 +188,10 @@ TEST(PairIcpFreedom, PrintHoldsAPlate)
 TEST(PairIcpFreedom, LeavesAPoseThatBringsNothingTogether)
 {
   const PartialModel model = plate(print);
-  const Part part(model, 1);
+  const MatchedSurface part(model, 1);
   PartialModel few_model = madePart();
   addPatch({ 0, 0, 0 }, X, Y, 3, 3, print, &few_model);
-  const Part few(few_model, 1);
+  const MatchedSurface few(few_model, 1);
   const Eigen::Isometry3f away = pose({ 0, 0, 0.3F }, 0.1F, X), near = pose({ 0, 0, 0.001F }, 0, X);
   const Eigen::Isometry3f turned = pose({ 0, 0, 0 }, static_cast<float>(M_PI), X);
   for (const bool coarse : { true, false })
@@ -202,11 +202,11 @@ TEST(PairIcpFreedom, LeavesAPoseThatBringsNothingTogether)
     EXPECT_EQ(alignSurfaces(part, part, turned, options).matrix(), turned.matrix()) << "facing away";
     EXPECT_EQ(alignSurfaces(few, few, near, options).matrix(), near.matrix()) << "fewer than 20 pairs";
     const PartialModel none_model = madePart();
-    const Part none(none_model, 1);
+    const MatchedSurface none(none_model, 1);
     EXPECT_EQ(alignSurfaces(none, part, near, options).matrix(), near.matrix()) << "no points";
     EXPECT_EQ(alignSurfaces(part, none, near, options).matrix(), near.matrix()) << "no points";
   }
 }
 
 }  // namespace
-}  // namespace object_modelling::alignment
+}  // namespace object_modelling::registration

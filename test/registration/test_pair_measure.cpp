@@ -1,4 +1,4 @@
-#include "../../src/alignment/pair_measure.h"
+#include "object_modelling/registration/pair_measure.h"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 #include "made_part.h"
 #include "object_modelling/alignment/pair_figures.h"
 
-namespace object_modelling::alignment
+namespace object_modelling::registration
 {
 namespace
 {
@@ -32,7 +32,7 @@ PartialModel plate(float in_front_m = 0)
 PairQuality measure(const PartialModel& a, const PartialModel& b,
                     const Eigen::Isometry3f& T_a_b = Eigen::Isometry3f::Identity(), bool many = true)
 {
-  const Part part_a(a, 1), part_b(b, 1);
+  const MatchedSurface part_a(a, 1), part_b(b, 1);
   return measurePair(PartPair(part_a, part_b, 1), T_a_b, many);
 }
 
@@ -69,22 +69,22 @@ TEST(FreeSpaceViolation, IsDecidedByMostOfTheViews)
   constexpr float THROUGH_M = 1.1F, SAME_M = 1, HIDES_M = 0.9F, NOTHING_M = 0;
   enum Verdict
   {
-    UNKNOWN,
+    keyframes::UNKNOWN,
     UPHELD,
     LOOKED_THROUGH
   };
   const std::vector<std::pair<std::vector<float>, Verdict>> cases = {
-    { {}, UNKNOWN },
-    { { THROUGH_M }, UNKNOWN },
+    { {}, keyframes::UNKNOWN },
+    { { THROUGH_M }, keyframes::UNKNOWN },
     { { THROUGH_M, THROUGH_M }, LOOKED_THROUGH },
     { { THROUGH_M, THROUGH_M, SAME_M }, LOOKED_THROUGH },
     { { THROUGH_M, THROUGH_M, SAME_M, SAME_M }, UPHELD },
     { { THROUGH_M, SAME_M }, UPHELD },
     { { SAME_M }, UPHELD },
-    { { HIDES_M, HIDES_M }, UNKNOWN },
+    { { HIDES_M, HIDES_M }, keyframes::UNKNOWN },
     { { THROUGH_M, THROUGH_M, HIDES_M, HIDES_M, HIDES_M }, LOOKED_THROUGH },
     { { SAME_M, HIDES_M, HIDES_M }, UPHELD },
-    { { THROUGH_M, NOTHING_M, NOTHING_M }, UNKNOWN },
+    { { THROUGH_M, NOTHING_M, NOTHING_M }, keyframes::UNKNOWN },
     { { SAME_M, NOTHING_M, NOTHING_M }, UPHELD },
   };
   for (std::size_t i = 0; i < cases.size(); ++i)
@@ -138,7 +138,7 @@ TEST(PairMeasure, OverlapIsTheShareOfThePartThatHasLessBesides)
   addRows(0, 15, -0.2F, &b);  // 300 of b alone
   EXPECT_DOUBLE_EQ(measure(a, b).overlap_ratio, 0.75);
   EXPECT_DOUBLE_EQ(measure(b, a).overlap_ratio, 0.75);
-  const Part part_a(a, 1), part_b(b, 1);
+  const MatchedSurface part_a(a, 1), part_b(b, 1);
   const Eigen::Isometry3f I = Eigen::Isometry3f::Identity();
   EXPECT_NEAR(coarseOverlap(part_a, part_b, I), 0.5, 0.01) << "of b";
   EXPECT_NEAR(coarseOverlap(part_b, part_a, I), 0.75, 0.01) << "of a";
@@ -165,7 +165,7 @@ TEST(PairMeasure, SurfacesThatFaceAwayAreNotTheSame)
   const PairQuality quality = measure(plate(), back);
   EXPECT_EQ(quality.overlap_ratio, 0);
   EXPECT_EQ(quality.rmse_m, 0);
-  const Part part(plate(), 1);
+  const MatchedSurface part(plate(), 1);
   EXPECT_EQ(measure(plate(), plate(0.05F)).overlap_ratio, 0) << "out of reach";
 }
 
@@ -195,7 +195,7 @@ PartialModel printedCorner()
 
 void expectAlike(const PairQuality& one, const PairQuality& other, double tolerance)
 {
-  for (const PairFigure& figure : pairFigures())
+  for (const alignment::PairFigure& figure : alignment::pairFigures())
     EXPECT_NEAR(one.*figure.value, other.*figure.value, tolerance) << figure.name;
 }
 
@@ -311,10 +311,10 @@ TEST(PairMeasure, OfNothingIsNothing)
   {
     const PairQuality quality = measure(nothing, other);
     EXPECT_EQ(quality.overlap_ratio, 0);
-    for (const PairFigure& figure : pairFigures())
+    for (const alignment::PairFigure& figure : alignment::pairFigures())
       EXPECT_TRUE(std::isfinite(quality.*figure.value)) << figure.name;
   }
 }
 
 }  // namespace
-}  // namespace object_modelling::alignment
+}  // namespace object_modelling::registration

@@ -5,7 +5,7 @@
 
 #include "light_levelling.h"
 
-namespace object_modelling::surface
+namespace object_modelling::texture
 {
 namespace
 {
@@ -77,7 +77,7 @@ protected:
 
   static constexpr int SIZE_PX = 101;
   const Eigen::Vector3f X = Eigen::Vector3f::UnitX();
-  geometry::TriangleMesh mesh_;
+  mesh::TriangleMesh mesh_;
   rgbd::Frame frame_ = []
   {
     rgbd::Frame frame;
@@ -234,4 +234,4 @@ TEST_F(LightGainsOfASquare, AreNoneUnderOneLight)
 }
 
 }  // namespace
-}  // namespace object_modelling::surface
+}  // namespace object_modelling::texture

@@ -4,9 +4,9 @@
 #include <initializer_list>
 #include <vector>
 
-#include "object_modelling/alignment/partial_model.h"
+#include "object_modelling/registration/partial_model.h"
 
-namespace object_modelling::alignment
+namespace object_modelling::registration
 {
 constexpr float SPACING_M = 0.002F;
 
@@ -70,4 +70,4 @@ inline SpaceView viewAlongZ(float measured_m, double axial_sigma_m = 0.001)
   return view;
 }
 
-}  // namespace object_modelling::alignment
+}  // namespace object_modelling::registration

@@ -1,4 +1,4 @@
-#include "relative_pose.h"
+#include "object_modelling/features/relative_pose.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "support/synthetic_scene.h"
 #include "support/transform_matchers.h"
 
-namespace object_modelling::refinement
+namespace object_modelling::features
 {
 namespace
 {
@@ -165,4 +165,4 @@ TEST_F(RelativePoseOfPoints, CovarianceLiesAlongTheRayAndAcrossIt)
 }
 
 }  // namespace
-}  // namespace object_modelling::refinement
+}  // namespace object_modelling::features
