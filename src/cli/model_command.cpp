@@ -39,10 +39,21 @@ class PrintedStages : public pipeline::LocalStages
 {
 public:
   PrintedStages(keyframes::SessionStore& store, database::ObjectDatabase& database,
-                const pipeline::LocalStagesOptions& options, CommandOutput* output)
-      : LocalStages(store, database, options), output_(output)
+                const pipeline::LocalStagesOptions& options, const ObjectPlace& place, CommandOutput* output)
+      : LocalStages(store, database, options), place_(place), output_(output)
   {
   }
+
+  pipeline::AlignedSessions align(const std::vector<std::string>& session_ids, base::JobControl& control) override
+  {
+    pipeline::AlignedSessions aligned = LocalStages::align(session_ids, control);
+    if (!aligned.left_out.empty())
+      aligned.status.message += "; " + remedyFor(aligned_, place_);
+    return aligned;
+  }
+
+  const alignment::AlignmentResult& aligned() const { return aligned_; }
+  const std::optional<pipeline::BuildReport>& built() const { return built_; }
 
   void onRecorded(const pipeline::RecordReport& recorded)
   {
@@ -61,6 +72,8 @@ protected:
     output_->text += "session   " + segmented.session_id + "\n" + toText(segmented);
     of(segmented.session_id)["segmentation"] = toJson(segmented);
   }
+  void onAligned(const alignment::AlignmentResult& aligned) override { aligned_ = aligned; }
+  void onBuilt(const pipeline::BuildReport& built) override { built_ = built; }
 
 private:
   /// What is told of a session, in the order in which sessions were first told of.
@@ -73,8 +86,11 @@ private:
     return sessions[place->second];
   }
 
+  ObjectPlace place_;
   CommandOutput* output_;
   std::map<std::string, std::size_t> places_;
+  alignment::AlignmentResult aligned_;
+  std::optional<pipeline::BuildReport> built_;
 };
 
 /// One recording becomes a stored session; its id.
@@ -148,12 +164,10 @@ pipeline::LocalStagesOptions stagesOptions(const Arguments& arguments)
 }
 
 /// What became of the sessions. Where not all fit though they are required to, the output's status says so.
-void tell(const pipeline::ModelOutcome& outcome, const Arguments& arguments, CommandOutput* output)
+void tell(const pipeline::ModelOutcome& outcome, const PrintedStages& stages, const std::string& object_id,
+          CommandOutput* output)
 {
-  const alignment::AlignmentResult& aligned = outcome.aligned;
-  const bool partial = !aligned.left_out.empty();
-  const std::string remedy =
-      partial ? "; " + remedyFor(aligned, { arguments.object_id, arguments.store, arguments.database }) : "";
+  const alignment::AlignmentResult& aligned = stages.aligned();
   for (const std::string& id : outcome.unchanged)
     output->text += "session   " + id + "\nas before, refined and segmented\n";
   output->json["unchanged_sessions"] = outcome.unchanged;
@@ -163,21 +177,18 @@ void tell(const pipeline::ModelOutcome& outcome, const Arguments& arguments, Com
     output->text += toText(aligned);
     output->json["alignment"] = toJson(aligned);
   }
-  if (!outcome.built)
+  if (!stages.built())
   {
-    output->status = { aligned.status.code, "alignment: " + aligned.status.message + remedy };
+    output->status = { outcome.status.code, "alignment: " + outcome.status.message };
     output->json["status"] = toJson(output->status);
     return;
   }
-  output->text += toText(*outcome.built);
-  output->json["build"] = toJson(*outcome.built);
-  base::Status status = outcome.status;
-  if (partial)
-    status.message += "; " + aligned.status.message + remedy;
-  if (!status.ok())
-    throw base::Error(status.code, "building object '" + arguments.object_id + "': " + status.message);
-  if (partial)
-    output->warning = status.message;
+  output->text += toText(*stages.built());
+  output->json["build"] = toJson(*stages.built());
+  if (!outcome.status.ok())
+    throw base::Error(outcome.status.code, "building object '" + object_id + "': " + outcome.status.message);
+  if (!aligned.left_out.empty())
+    output->warning = outcome.status.message;
 }
 
 CommandOutput run(const Arguments& arguments, base::JobControl& control)
@@ -200,11 +211,12 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
   CommandOutput output;
   output.json["object_id"] = arguments.object_id;
   output.json["sessions"] = nlohmann::json::array();
-  PrintedStages stages(store, database, stagesOptions(arguments), &output);
+  PrintedStages stages(store, database, stagesOptions(arguments),
+                       { arguments.object_id, arguments.store, arguments.database }, &output);
   std::vector<std::string> session_ids = storedSessions(arguments, store);
   for (const std::string& recording : arguments.recordings)
     session_ids.push_back(record(recording, arguments, store, control, &stages));
-  tell(pipeline::modelObject(stages, session_ids, arguments.again, control), arguments, &output);
+  tell(pipeline::modelObject(stages, session_ids, arguments.again, control), stages, arguments.object_id, &output);
   return output;
 }
 }  // namespace

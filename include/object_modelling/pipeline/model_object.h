@@ -11,6 +11,14 @@
 
 namespace object_modelling::pipeline
 {
+/// What the alignment hands to the build.
+struct AlignedSessions
+{
+  base::Status status;  ///< OK: all placed, or with a message that names those left out and why
+  std::vector<alignment::SessionPlacement> placements;
+  std::vector<database::LeftOutSession> left_out;
+};
+
 /// The stages that make an object of stored sessions, wherever they are done. What a stage could not do is thrown as
 /// base::Error, but that sessions do not fit each other is in the result of align().
 class ModelStages
@@ -18,23 +26,27 @@ class ModelStages
 public:
   virtual ~ModelStages() = default;
   virtual keyframes::Session session(const std::string& session_id) = 0;
-  virtual void refine(const std::string& session_id, base::JobControl& control) = 0;
-  virtual void segment(const std::string& session_id, base::JobControl& control) = 0;
-  virtual alignment::AlignmentResult align(const std::vector<std::string>& session_ids, base::JobControl& control) = 0;
-  virtual BuildReport build(const alignment::AlignmentResult& aligned, base::JobControl& control) = 0;
+  virtual void refine(const std::vector<std::string>& session_ids, base::JobControl& control) = 0;
+  virtual void segment(const std::vector<std::string>& session_ids, base::JobControl& control) = 0;
+  virtual AlignedSessions align(const std::vector<std::string>& session_ids, base::JobControl& control) = 0;
+  virtual base::Status build(const AlignedSessions& aligned, base::JobControl& control) = 0;
+  /// Told before each stage, also before one that has nothing to do.
+  virtual void onStage(const std::string& /*stage*/) {}
 };
 
 struct ModelOutcome
 {
-  /// Of alignment or of the build. OK with a message: the object is there, but partial, or without texture or report.
+  /// Of the build, and then what the alignment says; of the alignment alone where too few sessions fit. OK with a
+  /// message: the object is there, but partial, or without texture or report.
   base::Status status;
-  alignment::AlignmentResult aligned;
-  std::optional<BuildReport> built;    ///< none where too few sessions fit
+  bool built = false;                  ///< false: too few sessions fit, or the status is that of a failed build
+  std::vector<StageTime> stages;       ///< refine, segment, align and build, as far as they ran
   std::vector<std::string> unchanged;  ///< sessions that had been refined and segmented before
 };
 
 /// The one order of the stages: refine, segment, align, build. A session that bears the mark of a stage is not taken
-/// through it again, unless `again`: a person may have chosen its object.
+/// through it again, unless `again`: a person may have chosen its object. Progress names the sessions that stay as
+/// before.
 ModelOutcome modelObject(ModelStages& stages, const std::vector<std::string>& session_ids, bool again,
                          base::JobControl& control);
 
@@ -56,15 +68,17 @@ public:
   /// Both must outlive this.
   LocalStages(keyframes::SessionStore& store, database::ObjectDatabase& database, LocalStagesOptions options);
   keyframes::Session session(const std::string& session_id) override;
-  void refine(const std::string& session_id, base::JobControl& control) override;
-  void segment(const std::string& session_id, base::JobControl& control) override;
-  alignment::AlignmentResult align(const std::vector<std::string>& session_ids, base::JobControl& control) override;
-  BuildReport build(const alignment::AlignmentResult& aligned, base::JobControl& control) override;
+  void refine(const std::vector<std::string>& session_ids, base::JobControl& control) override;
+  void segment(const std::vector<std::string>& session_ids, base::JobControl& control) override;
+  AlignedSessions align(const std::vector<std::string>& session_ids, base::JobControl& control) override;
+  base::Status build(const AlignedSessions& aligned, base::JobControl& control) override;
 
 protected:
   /// Told of what was made, also of what failed.
   virtual void onRefined(const std::string& /*session_id*/, const SessionRefinement& /*refined*/) {}
   virtual void onSegmented(const SegmentReport& /*segmented*/) {}
+  virtual void onAligned(const alignment::AlignmentResult& /*aligned*/) {}
+  virtual void onBuilt(const BuildReport& /*built*/) {}
 
 private:
   keyframes::SessionStore& store_;
