@@ -1,9 +1,5 @@
 #include "object_modelling/ros_bridge/remote_session_store.h"
 
-#include <chrono>
-#include <future>
-#include <sstream>
-
 #include <object_modelling/AddKeyframe.h>
 #include <object_modelling/ChangeSession.h>
 #include <object_modelling/CreateSession.h>
@@ -23,6 +19,7 @@
 #include "object_modelling/ros_bridge/pose_conversion.h"
 #include "object_modelling/ros_bridge/session_conversion.h"
 #include "object_modelling/ros_bridge/status_conversion.h"
+#include "object_modelling/ros_bridge/timed_call.h"
 
 namespace object_modelling::ros_bridge
 {
@@ -46,52 +43,25 @@ bool RemoteSessionStore::available() const
 }
 
 template <typename Service>
-ros::ServiceClient RemoteSessionStore::connected(const std::string& resolved)
-{
-  if (!ros::service::waitForService(resolved, ros::Duration(options_.connect_timeout_s)))
-  {
-    std::ostringstream waited;
-    waited << "service " << resolved << " is not there after " << options_.connect_timeout_s
-           << " s; is the keyframe store running?";
-    throw base::Error(base::StatusCode::TIMEOUT, waited.str());
-  }
-  // A connection of its own: shutting it down from here ends a call that takes too long, which roscpp would otherwise
-  // wait for without limit.
-  return node_.serviceClient<Service>(resolved, true);
-}
-
-template <typename Service>
-bool RemoteSessionStore::answered(const std::string& resolved, ros::ServiceClient client, Service& service) const
-{
-  std::future<bool> done = std::async(std::launch::async, [&client, &service] { return client.call(service); });
-  if (done.wait_for(std::chrono::duration<double>(options_.call_timeout_s)) == std::future_status::ready)
-    return done.get();
-  client.shutdown();
-  if (done.get())
-    return true;
-  std::ostringstream late;
-  late << "service " << resolved << " did not answer within " << options_.call_timeout_s << " s";
-  throw base::Error(base::StatusCode::TIMEOUT, late.str());
-}
-
-template <typename Service>
 void RemoteSessionStore::call(const char* name, Service& service, ros::ServiceClient* kept)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const std::string resolved = node_.resolveName(options_.node + "/" + name);
+  const CallLimits limits = { options_.connect_timeout_s, options_.call_timeout_s };
+  const std::string relative = options_.node + "/" + name;
+  if (!kept)
+    return callInTime(node_, relative, limits, service);
   // A kept connection may be to a store that has gone: it only reads, so that asking again does no harm.
-  if (!kept || !kept->isValid() || !answered(resolved, *kept, service))
+  const std::string resolved = node_.resolveName(relative);
+  if (!kept->isValid() || !answered(resolved, *kept, limits.answer_s, service))
   {
-    ros::ServiceClient client = connected<Service>(resolved);
-    if (!answered(resolved, client, service))
-      throw base::Error(base::StatusCode::TIMEOUT,
-                        "service " + resolved + " went away during the call; see the log of the keyframe store");
-    if (kept)
-      *kept = client;
+    *kept = connected<Service>(node_, resolved, limits.wait_s);
+    if (!answered(resolved, *kept, limits.answer_s, service))
+    {
+      throwIfShuttingDown();
+      throw notAnswering("service '" + resolved + "'", "it went away during the call");
+    }
   }
-  const base::Status status = fromMessage(service.response.status);
-  if (!status.ok())
-    throw base::Error(status.code, status.message);
+  throwUnlessOk(service.response.status);
 }
 
 void RemoteSessionStore::createSession(const keyframes::Session& session)

@@ -18,4 +18,11 @@ base::Status fromMessage(const object_modelling::Status& message)
   return { static_cast<base::StatusCode>(message.code), message.message };
 }
 
+void throwUnlessOk(const object_modelling::Status& message)
+{
+  const base::Status status = fromMessage(message);
+  if (!status.ok())
+    throw base::Error(status.code, status.message);
+}
+
 }  // namespace object_modelling::ros_bridge

@@ -45,12 +45,6 @@ public:
   std::string importSession(const std::string& path) override;
 
 private:
-  /// A new connection to a service that is there, waiting for it.
-  template <typename Service>
-  ros::ServiceClient connected(const std::string& resolved);
-  /// False: the connection is broken.
-  template <typename Service>
-  bool answered(const std::string& resolved, ros::ServiceClient client, Service& service) const;
   /// Throws what the response's status says. `kept`: a connection for many calls that only read; else one for this.
   template <typename Service>
   void call(const char* name, Service& service, ros::ServiceClient* kept = nullptr);

@@ -11,6 +11,9 @@ object_modelling::Status toMessage(const base::Status& status);
 /// A code that this version does not know becomes INTERNAL, with the number in the message.
 base::Status fromMessage(const object_modelling::Status& message);
 
+/// Throws what a response's status says.
+void throwUnlessOk(const object_modelling::Status& message);
+
 /// Runs `body` and turns whatever it throws into a Status: base::Error as it says, all else as INTERNAL.
 template <typename Body>
 base::Status guarded(Body&& body)
