@@ -4,7 +4,9 @@
 #include "nodes/jobs/model_builder_options.h"
 #include "nodes/jobs/refiner_options.h"
 #include "nodes/jobs/session_aligner_options.h"
+#include "nodes/manager/manager_options.h"
 #include "nodes/segmenter/segmenter_options.h"
+#include "support/violations.h"
 #include "yaml_parameters.h"
 
 // Each shipped config/<node>.yaml is read by the node's own loader, holds every key, and says what the options'
@@ -72,6 +74,20 @@ TEST(Config, SessionAligner)
 TEST(Config, ModelBuilder)
 {
   expectDefaults<ModelBuilderOptions>("model_builder");
+}
+TEST(Config, ModellingManager)
+{
+  expectDefaults<ManagerOptions>("modelling_manager");
+}
+
+TEST(Config, BoundsOfTheModellingManager)
+{
+  ManagerOptions options;
+  options.service_wait_s = -1;
+  options.job_silence_s = 3601;
+  EXPECT_EQ(test_support::namesOf(options.violations()),
+            (std::vector<std::string>{ "job_silence_s", "service_wait_s" }));
+  EXPECT_NE(options.violations()[0].find("modelling_manager/service_wait_s = -1"), std::string::npos);
 }
 
 TEST(Config, MistakesAreListedTogether)

@@ -1,11 +1,13 @@
 #!/usr/bin/python3
 """The manager's services over ROS, with stand-ins for the nodes that it calls: every wrong order, nodes that are down."""
 import os
+import signal
+import subprocess
 import sys
 import threading
-import time
 import unittest
 
+import roslib.packages
 import rospy
 
 sys.path[:0] = [os.path.dirname(os.path.abspath(__file__)),
@@ -15,8 +17,7 @@ from fake_nodes import FakeJobs, FakeRecording
 from waiting import wait_until
 from object_modelling import msg, srv
 from object_modelling.msg import ManagerState, Progress
-from object_modelling.node_clients import ActionClient
-from object_modelling.outcome import Code, NodeDown
+from object_modelling.outcome import Code
 
 
 class ManagerTest(unittest.TestCase):
@@ -161,6 +162,43 @@ class BuildTest(ManagerTest):
         self.assertEqual(self.jobs.refine.goals[1].session_ids, ["s1", "s2"])
         self.assertEqual([goal.session_id for goal in self.jobs.segment.goals], ["s2", "s1", "s2"])
 
+    def test_progress_tells_stage_and_step(self):
+        for session_id in ("s1", "s2", "s3"):
+            self.recording.add(session_id, "mug")
+        self.recording.sessions["s1"].segmented.by = "by_hand"
+        self.jobs.segment.gate.clear()
+        self.build()
+        self.reported("refine", 0, 0)
+        self.reported("segment: as before: s1", 0, 0)
+        self.reported("segment: 1 of 2, step", 1, 2)
+        self.jobs.segment.started.clear()
+        self.jobs.segment.gate.set()
+        self.assertTrue(self.jobs.segment.started.wait(10))
+        wait_until(lambda: self.progress and not self.progress[-1].active, "the end on ~progress")
+
+    def reported(self, stage, done, total):
+        wait_until(lambda: (stage, done, total) in {(report.stage, report.done, report.total) for report in
+                                                    list(self.progress)}, stage)
+
+    def test_services_answer_while_a_call_waits(self):
+        self.recording.add("s1", "mug")
+        self.jobs.refine.gate.clear()
+        waiting = [threading.Thread(target=lambda: self.call("build_object", srv.BuildObject, object_id="mug", wait=True))]
+        waiting[0].start()
+        self.assertTrue(self.jobs.refine.started.wait(10))
+        # Nobody offers it: each of these waits for service_wait_s.
+        waiting += [threading.Thread(target=lambda: self.call("list_objects", srv.ListObjects)) for _ in range(3)]
+        for caller in waiting[1:]:
+            caller.start()
+        self.refused(Code.FAILED_PRECONDITION, "being built", "build_object", srv.BuildObject, object_id="cup", wait=True)
+        self.recording.publish(True, "s9", 5)
+        wait_until(lambda: self.state.keyframe_count == 5, "the tracker's report")
+        self.succeed("cancel", srv.Cancel)
+        for caller in waiting:
+            caller.join(10)
+            self.assertFalse(caller.is_alive())
+        self.recording.publish(False, "s9", 5)
+
     def test_what_was_left_out_reaches_who_asked(self):
         self.recording.add("s1", "mug")
         self.recording.add("s2", "mug")
@@ -232,32 +270,30 @@ class BuildTest(ManagerTest):
         wait_until(lambda: self.state.status.code == Code.NO_RESULT, "the reason in ~state")
 
 
-class ActionClientTest(ManagerTest):
-    def make(self, after_sending):
-        client = ActionClient("refiner/refine", msg.RefineAction, wait_s=5, silence_s=1)
-        goals = client._client.manager  # pylint: disable=protected-access
-        send = goals.send_goal_fn
+class ShutdownTest(ManagerTest):
+    def test_ends_at_once_while_a_call_waits_for_a_build(self):
+        manager = subprocess.Popen([roslib.packages.find_node("object_modelling", "modelling_manager")[0],
+                                    "__name:=short_lived"])
+        rospy.wait_for_service("short_lived/build_object", 20)
+        self.recording.add("s1", "mug")
+        self.jobs.refine.gate.clear()
+        answers = []
 
-        def send_and_go_on(goal):
-            after_sending(send, goal)
+        def build():
+            try:
+                answers.append(rospy.ServiceProxy("short_lived/build_object", srv.BuildObject)(object_id="mug", wait=True))
+            except rospy.ServiceException as failure:
+                answers.append(failure)
 
-        goals.register_send_goal_fn(send_and_go_on)
-        return client
-
-    def test_goal_that_ends_before_sending_has_returned(self):
-        def slow_sender(send, goal):
-            send(goal)
-            self.assertTrue(self.jobs.refine.started.wait(10))
-            time.sleep(0.5)
-
-        end = time.monotonic() + 10
-        client = self.make(slow_sender)
-        result = client.run(msg.RefineGoal(), lambda *_: self.assertLess(time.monotonic(), end, "waits for ever"))
-        self.assertEqual(result.status.code, Code.OK)
-
-    def test_goal_that_never_arrives(self):
-        with self.assertRaisesRegex(NodeDown, "did not take the goal within 1 s"):
-            self.make(lambda send, goal: None).run(msg.RefineGoal(), lambda *_: None)
+        caller = threading.Thread(target=build)
+        caller.start()
+        self.assertTrue(self.jobs.refine.started.wait(10))
+        manager.send_signal(signal.SIGINT)
+        self.assertEqual(manager.wait(5), 0)
+        caller.join(5)
+        self.assertFalse(caller.is_alive())
+        if not isinstance(answers[0], rospy.ServiceException):  # the connection closed first
+            self.assertEqual(answers[0].status.code, Code.CANCELLED)
 
 
 class DeadJobTest(ManagerTest):
@@ -276,7 +312,7 @@ class DeadJobTest(ManagerTest):
 
 def suite():
     loader = unittest.TestLoader()
-    cases = (RecordingTest, BuildTest, ActionClientTest, DeadJobTest)
+    cases = (RecordingTest, BuildTest, ShutdownTest, DeadJobTest)
     return unittest.TestSuite(loader.loadTestsFromTestCase(case) for case in cases)
 
 

@@ -4,7 +4,7 @@
 
 #include "../common/data_path.h"
 #include "left_out_message.h"
-#include "object_modelling/ros_bridge/pose_conversion.h"
+#include "placement_message.h"
 
 namespace object_modelling::nodes
 {
@@ -34,21 +34,6 @@ object_modelling::ObjectSummary toMessage(const database::ObjectEntry& entry)
   for (const database::LeftOutSession& session : entry.sessions_left_out)
     message.left_out.push_back(leftOutMessage(session));
   return message;
-}
-
-std::vector<alignment::SessionPlacement> placementsOf(const object_modelling::BuildGoal& goal)
-{
-  std::vector<alignment::SessionPlacement> placements;
-  for (const object_modelling::SessionPlacement& message : goal.placements)
-  {
-    alignment::SessionPlacement placement;
-    placement.session_id = message.session_id;
-    const bool left_zero = message.reference_from_session == geometry_msgs::Pose();
-    if (!left_zero || goal.placements.size() > 1)
-      placement.T_reference_session = ros_bridge::fromMessage(message.reference_from_session);
-    placements.push_back(placement);
-  }
-  return placements;
 }
 
 object_modelling::BuiltObject toMessage(const pipeline::BuildReport& report, const std::string& object_id)
@@ -86,7 +71,7 @@ ModelBuilder::ModelBuilder(ros::NodeHandle& node, ros::NodeHandle& private_node,
 
 object_modelling::BuildResult ModelBuilder::build(const object_modelling::BuildGoal& goal, base::JobControl& control)
 {
-  const std::vector<alignment::SessionPlacement> placements = placementsOf(goal);
+  const std::vector<alignment::SessionPlacement> placements = placementsFrom(goal.placements);
   // Before the long work: a folder that cannot be written is known at once.
   database::ObjectDatabase database(database_path_, true);
   pipeline::BuildOptions build_options = options_.build;

@@ -2,7 +2,7 @@
 
 #include "alignment_message.h"
 #include "left_out_message.h"
-#include "object_modelling/ros_bridge/pose_conversion.h"
+#include "placement_message.h"
 #include "session_list.h"
 
 namespace object_modelling::nodes
@@ -72,12 +72,7 @@ object_modelling::AlignResult SessionAligner::align(const object_modelling::Alig
   object_modelling::AlignResult result;
   result.status = ros_bridge::toMessage(found.status);
   for (const alignment::SessionPlacement& placement : found.placements)
-  {
-    object_modelling::SessionPlacement message;
-    message.session_id = placement.session_id;
-    message.reference_from_session = ros_bridge::toPoseMessage(placement.T_reference_session);
-    result.placements.push_back(message);
-  }
+    result.placements.push_back(placementMessage(placement));
   result.left_out = found.left_out;
   for (const alignment::AlignmentEdge& edge : found.edges)
     result.edges.push_back(toMessage(edge));
