@@ -1,84 +1,74 @@
 #include "object_modelling/pipeline/record_session.h"
 
-#include <chrono>
-
-#include <glog/logging.h>
+#include <optional>
 
 #include "object_modelling/base/options.h"
+#include "object_modelling/pipeline/session_recorder.h"
 
 namespace object_modelling::pipeline
 {
 namespace
 {
-using Clock = std::chrono::steady_clock;
-
-/// Removes the session again unless the recording came to its end.
-class SessionTransaction
-{
-public:
-  SessionTransaction(keyframes::SessionStore* store, keyframes::Session session)
-      : store_(store), session_(std::move(session))
-  {
-    session_.closed = false;
-    if (store_)
-      store_->createSession(session_);
-  }
-  ~SessionTransaction()
-  {
-    if (!store_ || committed_)
-      return;
-    try
-    {
-      store_->deleteSession(session_.id);
-    }
-    catch (const base::Error& error)
-    {
-      LOG(ERROR) << "session '" << session_.id << "' of a failed recording stays in the store: " << error.what();
-    }
-  }
-  void add(const rgbd::Keyframe& keyframe)
-  {
-    if (store_)
-      store_->addKeyframe(session_.id, keyframe);
-  }
-  void commit()
-  {
-    if (store_)
-    {
-      keyframes::SessionChange change;
-      change.closed = true;
-      store_->update(session_.id, change);
-    }
-    committed_ = true;
-  }
-
-private:
-  keyframes::SessionStore* store_;
-  keyframes::Session session_;
-  bool committed_ = false;
-};
-
 void note(const std::string& problem, RecordReport* report)
 {
   if (report->first_problem.empty())
     report->first_problem = problem;
 }
 
-void add(const tracking::TrackingResult& result, bool was_lost, RecordReport* report)
+void note(const RecordedFrame& recorded, RecordReport* report)
 {
-  if (result.tracked())
-  {
-    ++report->tracked_count;
-    report->trajectory.push_back({ result.stamp_s, result.T_session_camera });
-    report->relocalised_count += result.status == tracking::TrackingStatus::RELOCALISED;
-  }
+  const std::string name = "frame " + std::to_string(report->frame_count - 1);
+  if (!recorded.object.ok())
+    note(name + ": " + recorded.object.message, report);
+  if (recorded.result.tracked())
+    report->trajectory.push_back({ recorded.result.stamp_s, recorded.result.T_session_camera });
   else
+    note(name + " not tracked: " + recorded.result.reason, report);
+  report->track_ms.push_back(recorded.track_ms);
+}
+
+/// All frames of the recording.
+RecordReport recordFrames(source::FrameSource& source, const RecordOptions& options, SessionRecorder& recorder,
+                          base::JobControl& control)
+{
+  rgbd::FrameBuilder builder(options.frame);
+  RecordReport report;
+  report.session_id = recorder.session().id;
+  const std::string camera_frame_id = source.frameId();
+  while (const std::optional<rgbd::RawFrame> raw = source.next())
   {
-    if (!was_lost && result.status == tracking::TrackingStatus::LOST)
-      ++report->lost_count;
-    note("frame " + std::to_string(report->frame_count - 1) + " not tracked: " + result.reason, report);
+    control.report("track", report.frame_count, source.size().value_or(0));
+    ++report.frame_count;
+    base::Result<rgbd::Frame> frame = builder.build(*raw);
+    if (frame.ok())
+      note(recorder.process(std::move(frame.value), camera_frame_id), &report);
+    else
+    {
+      ++report.unusable_count;
+      note("frame " + std::to_string(report.frame_count - 1) + " unusable: " + frame.status.message, &report);
+    }
   }
-  report->keyframe_count += result.keyframe.has_value();
+  control.report("track", report.frame_count, report.frame_count);
+  const RecordingCounts& counts = recorder.counts();
+  report.tracked_count = counts.tracked_count;
+  report.lost_count = counts.lost_count;
+  report.relocalised_count = counts.relocalised_count;
+  report.keyframe_count = counts.keyframe_count;
+  return report;
+}
+
+void requireUsable(const RecordReport& report, const std::string& recording, double max_unusable_ratio)
+{
+  const std::string prefix = "recording '" + recording + "': ";
+  if (report.frame_count == 0)
+    throw base::Error(base::StatusCode::BAD_INPUT, prefix + "has no frames");
+  if (report.unusable_count > max_unusable_ratio * report.frame_count)
+    throw base::Error(base::StatusCode::BAD_INPUT, prefix + std::to_string(report.unusable_count) + " of " +
+                                                       std::to_string(report.frame_count) +
+                                                       " frames are unusable; first problem: " + report.first_problem);
+  if (report.keyframe_count == 0)
+    throw base::Error(base::StatusCode::BAD_INPUT,
+                      prefix + "no frame could be tracked; first problem: " + report.first_problem);
 }
 }  // namespace
 
@@ -96,67 +86,25 @@ RecordReport recordSession(source::FrameSource& source, const keyframes::Session
                            keyframes::SessionStore* store, const RecordOptions& options, base::JobControl& control)
 {
   base::checked(options);
-  const bool object_reference = options.tracker.reference == tracking::Reference::OBJECT;
-  rgbd::FrameBuilder builder(options.frame);
-  tracking::CameraTracker tracker(options.tracker);
-  segmentation::ObjectFollower follower(options.follower);
-
+  std::optional<StoreSink> sink;
+  if (store != nullptr)
+    sink.emplace(*store);
+  SessionRecorder recorder({ options.tracker, options.follower, options.frame.noise_model }, sink ? &*sink : nullptr);
   keyframes::Session recorded = session;
   recorded.camera_frame_id = source.frameId();
-  recorded.reference_is_object = object_reference;
-  recorded.calibration.noise_model = options.frame.noise_model;
-  SessionTransaction transaction(store, recorded);
-
-  RecordReport report;
-  report.session_id = session.id;
-  bool was_lost = false;
-  while (const std::optional<rgbd::RawFrame> raw = source.next())
+  recorder.start(recorded);
+  try
   {
-    control.report("track", report.frame_count, source.size().value_or(0));
-    ++report.frame_count;
-    base::Result<rgbd::Frame> frame = builder.build(*raw);
-    if (!frame.ok())
-    {
-      ++report.unusable_count;
-      note("frame " + std::to_string(report.frame_count - 1) + " unusable: " + frame.status.message, &report);
-      continue;
-    }
-    segmentation::FollowedObject followed;
-    if (object_reference)
-    {
-      // Without a mask the tracker says itself that the frame cannot be placed.
-      followed = follower.follow(frame.value);
-      if (!followed.status.ok())
-        note("frame " + std::to_string(report.frame_count - 1) + ": " + followed.status.message, &report);
-      frame.value.object_mask = followed.moving();
-    }
-    const Clock::time_point start = Clock::now();
-    tracking::TrackingResult result = tracker.track(frame.value);
-    report.track_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
-    if (result.keyframe)
-    {
-      // A turntable helps to track the object and is no part of it.
-      if (object_reference)
-        result.keyframe->frame.object_mask = followed.mask;
-      transaction.add(*result.keyframe);
-    }
-    add(result, was_lost, &report);
-    was_lost = result.status == tracking::TrackingStatus::LOST;
+    RecordReport report = recordFrames(source, options, recorder, control);
+    requireUsable(report, source.name(), options.max_unusable_ratio);
+    recorder.finish();
+    return report;
   }
-  control.report("track", report.frame_count, report.frame_count);
-
-  const std::string prefix = "recording '" + source.name() + "': ";
-  if (report.frame_count == 0)
-    throw base::Error(base::StatusCode::BAD_INPUT, prefix + "has no frames");
-  if (report.unusable_count > options.max_unusable_ratio * report.frame_count)
-    throw base::Error(base::StatusCode::BAD_INPUT, prefix + std::to_string(report.unusable_count) + " of " +
-                                                       std::to_string(report.frame_count) +
-                                                       " frames are unusable; first problem: " + report.first_problem);
-  if (report.keyframe_count == 0)
-    throw base::Error(base::StatusCode::BAD_INPUT,
-                      prefix + "no frame could be tracked; first problem: " + report.first_problem);
-  transaction.commit();
-  return report;
+  catch (...)
+  {
+    recorder.reset();
+    throw;
+  }
 }
 
 }  // namespace object_modelling::pipeline
