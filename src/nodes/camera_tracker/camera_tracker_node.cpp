@@ -21,9 +21,11 @@ CameraTrackerNode::CameraTrackerNode(ros::NodeHandle& node, ros::NodeHandle& pri
                                      const CameraTrackerNodeOptions& options)
     : options_(options),
       store_(node, options.store),
-      record_(store_, options.stored_timeout_s),
-      recording_(options, options.use_store ? &record_ : nullptr),
       publisher_(private_node, options),
+      record_([this](const rgbd::Keyframe& keyframe, const std::string& session_id, const std::string& camera_frame_id)
+              { publisher_.publishKeyframe(keyframe, session_id, camera_frame_id); },
+              options.use_store ? &store_ : nullptr, options.stored_timeout_s),
+      recording_(options, record_),
       robot_(options),
       pairer_(options.frame.max_stamp_difference_s, false),
       watch_(options.input_timeout_s, ros::WallTime::now())

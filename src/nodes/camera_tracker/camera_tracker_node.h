@@ -47,9 +47,9 @@ private:
 
   CameraTrackerNodeOptions options_;
   ros_bridge::RemoteSessionStore store_;
+  TrackingPublisher publisher_;
   SessionRecord record_;
   Recording recording_;
-  TrackingPublisher publisher_;
   RobotMotion robot_;
   FramePairer pairer_;
   InputWatch watch_;

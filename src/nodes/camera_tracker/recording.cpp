@@ -1,7 +1,7 @@
 #include "recording.h"
 
 #include <ctime>
-#include <sstream>
+#include <utility>
 
 #include "object_modelling/ros_bridge/frame_conversion.h"
 #include "object_modelling/ros_bridge/image_conversion.h"
@@ -32,7 +32,6 @@ void requireId(const std::string& id, const std::string& what)
 
 void describe(const tracking::TrackingResult& result, TrackingState* state)
 {
-  state->status = static_cast<std::uint8_t>(result.status);
   state->reason = result.reason;
   state->feature_count = result.feature_count;
   state->inlier_count = result.inlier_count;
@@ -41,14 +40,20 @@ void describe(const tracking::TrackingResult& result, TrackingState* state)
   state->angular_speed_rad_per_s = static_cast<float>(result.angular_speed_rad_per_s);
   state->blur_ratio = static_cast<float>(result.blur_ratio);
 }
+
+std::string notNewer(double stamp_s, double newest_stamp_s)
+{
+  return "stamp " + std::to_string(stamp_s) + " s is not newer than " + std::to_string(newest_stamp_s) +
+         " s, the newest of this session: is a recording played again, or has a clock been set back? Call ~stop and "
+         "~start for a new session";
+}
 }  // namespace
 
-Recording::Recording(const CameraTrackerNodeOptions& options, SessionRecord* record)
+Recording::Recording(const CameraTrackerNodeOptions& options, SessionRecord& record)
     : options_(options),
       record_(record),
       builder_(options.frame),
-      follower_(options.follower),
-      tracker_(options.tracker)
+      recorder_({ options.tracker, options.follower, options.frame.noise_model }, &record)
 {
 }
 
@@ -56,66 +61,48 @@ std::string Recording::start(const std::string& session_id, const std::string& o
                              const ros::Time& now)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (state_.recording)
+  if (recorder_.recording())
     throw base::Error(base::StatusCode::FAILED_PRECONDITION,
-                      "session '" + session_.id + "' is being recorded; call ~stop first");
-  if (resume && (record_ == nullptr || session_id.empty()))
+                      "session '" + recorder_.session().id + "' is being recorded; call ~stop first");
+  if (resume && (!record_.stores() || session_id.empty()))
     throw base::Error(base::StatusCode::INVALID_ARGUMENT,
                       "resume needs the id of a stored session, and use_store to be true");
   keyframes::Session session;
   session.id = session_id.empty() ? idOf(now) : session_id;
   session.object_id = object_id;
-  session.reference_is_object = options_.tracker.reference == tracking::Reference::OBJECT;
-  session.calibration.noise_model = options_.frame.noise_model;
   requireId(session.id, "session id");
   if (!object_id.empty())
     requireId(object_id, "object id");
 
-  tracker_.reset();
-  follower_.reset();
-  last_stamp_ = ros::Time();
-  robot_problem_.clear();
-  int keyframe_count = 0;
   if (resume)
+    recorder_.resume(session.id);
+  else
   {
-    const std::vector<rgbd::Keyframe> keyframes = record_->reopen(session.id, options_.frame.noise_model);
-    tracker_.resume(keyframes);
-    keyframe_count = static_cast<int>(keyframes.size());
+    if (session_id.empty())
+      session.id = record_.freeId(session.id);
+    else
+      record_.requireFree(session.id);
+    recorder_.start(session);
   }
-  else if (record_ != nullptr && session_id.empty())
-    session.id = record_->freeId(session.id);
-  else if (record_ != nullptr)
-    record_->requireFree(session.id);
-
-  session_ = session;
-  created_ = record_ == nullptr || resume;
-  sent_keyframes_ = keyframe_count;
-  const bool input_ok = state_.input_ok;
-  state_ = TrackingState();
-  state_.input_ok = input_ok;
-  state_.recording = true;
-  state_.session_id = session.id;
-  state_.keyframe_count = keyframe_count;
+  status_ = tracking::TrackingStatus::NOT_STARTED;
+  dropped_frames_ = 0;
+  robot_problem_.clear();
   return session.id;
 }
 
 TrackingState Recording::stop(base::Status* stored)
 {
   TrackingState ended;
-  bool in_store = false;
-  int sent_keyframes = 0;
+  pipeline::EndedSession session;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!state_.recording)
+    if (!recorder_.recording())
       throw base::Error(base::StatusCode::FAILED_PRECONDITION, "nothing is being recorded; call ~start first");
-    ended = state_;
-    state_.recording = false;
-    state_.status = TrackingState::NOT_STARTED;
-    in_store = record_ != nullptr && created_;
-    sent_keyframes = sent_keyframes_;
+    count(&ended);
+    session = recorder_.end();
+    status_ = tracking::TrackingStatus::NOT_STARTED;
   }
-  if (in_store)
-    *stored = ros_bridge::guarded([&] { record_->finish(ended.session_id, sent_keyframes); });
+  *stored = ros_bridge::guarded([&] { recorder_.close(session); });
   return ended;
 }
 
@@ -124,17 +111,16 @@ std::string Recording::reset()
   std::string left;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (state_.recording)
-      left = session_.id;
+    if (recorder_.recording())
+      left = recorder_.session().id;
   }
   base::Status stored;
   if (!left.empty())
     stop(&stored);
   const std::lock_guard<std::mutex> lock(mutex_);
-  tracker_.reset();
-  const bool input_ok = state_.input_ok;
-  state_ = TrackingState();
-  state_.input_ok = input_ok;
+  recorder_.reset();
+  status_ = tracking::TrackingStatus::NOT_STARTED;
+  dropped_frames_ = 0;
   if (!stored.ok())
     throw base::Error(stored.code, stored.message);
   return left;
@@ -158,55 +144,36 @@ rgbd::Frame Recording::frameOf(const FrameMessages& messages)
   return std::move(frame.value);
 }
 
-void Recording::createSession(const std_msgs::Header& header)
+void Recording::record(const std_msgs::Header& header, const RobotPose& robot, TrackedFrame* tracked)
 {
-  if (created_)
-    return;
-  session_.camera_frame_id = header.frame_id;
-  session_.started_s = header.stamp.toSec();
-  record_->create(session_);
-  created_ = true;
+  pipeline::RecordedFrame recorded = recorder_.process(*tracked->frame, header.frame_id, robot.T_robot_camera);
+  if (recorded.newest_stamp_s)
+    recorded.result.reason = notNewer(header.stamp.toSec(), *recorded.newest_stamp_s);
+  if (!recorded.object.ok())
+    recorded.result.reason = "no object in view: " + recorded.object.message;
+  status_ = recorded.result.status;
+  tracked->state.robot_motion_used = robot.T_robot_camera.has_value() && !recorded.newest_stamp_s;
+  tracked->frame = std::move(recorded.frame);
+  tracked->result = std::move(recorded.result);
 }
 
-void Recording::requireNewer(const ros::Time& stamp)
+void Recording::setLost()
 {
-  if (!last_stamp_.isZero() && stamp <= last_stamp_)
-  {
-    std::ostringstream text;
-    text << std::fixed << "stamp " << stamp.toSec() << " s is not newer than " << last_stamp_.toSec()
-         << " s, the newest of this session: is a recording played again, or has a clock been set back? Call ~stop and "
-            "~start for a new session";
-    throw base::Error(base::StatusCode::BAD_INPUT, text.str());
-  }
-  last_stamp_ = stamp;
+  if (status_ != tracking::TrackingStatus::NOT_STARTED)
+    status_ = tracking::TrackingStatus::LOST;
 }
 
-void Recording::track(const std_msgs::Header& header, const RobotPose& robot, TrackedFrame* tracked)
+void Recording::count(TrackingState* state) const
 {
-  rgbd::Frame& frame = *tracked->frame;
-  createSession(header);
-  ++state_.frame_count;
-  requireNewer(header.stamp);
-  segmentation::FollowedObject object;
-  if (options_.tracker.reference == tracking::Reference::OBJECT)
-  {
-    object = follower_.follow(frame);
-    frame.object_mask = object.moving();
-  }
-  tracked->result = tracker_.track(frame, robot.T_robot_camera);
-  tracking::TrackingResult& result = *tracked->result;
-  if (!object.status.ok())
-    result.reason = "no object in view: " + object.status.message;
-  state_.tracked_count += result.tracked() ? 1 : 0;
-  if (result.keyframe)
-  {
-    // A turntable helps to track the object and is no part of it.
-    if (options_.tracker.reference == tracking::Reference::OBJECT)
-      result.keyframe->frame.object_mask = object.mask;
-    ++state_.keyframe_count;
-    ++sent_keyframes_;
-  }
-  state_.status = static_cast<std::uint8_t>(result.status);
+  const pipeline::RecordingCounts& counts = recorder_.counts();
+  state->recording = recorder_.recording();
+  state->session_id = recorder_.session().id;
+  state->status = static_cast<std::uint8_t>(status_);
+  state->input_ok = input_ok_;
+  state->keyframe_count = counts.keyframe_count;
+  state->frame_count = counts.frame_count;
+  state->tracked_count = counts.tracked_count;
+  state->dropped_frames = dropped_frames_;
 }
 
 void Recording::say(const RobotPose& robot, std::string* reason)
@@ -220,25 +187,23 @@ TrackedFrame Recording::process(const FrameMessages& messages, std::size_t dropp
 {
   const ros::WallTime begin = ros::WallTime::now();
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (state_.recording)
-    state_.dropped_frames += static_cast<int>(dropped_count);
+  const bool recording = recorder_.recording();
+  if (recording)
+    dropped_frames_ += static_cast<int>(dropped_count);
   TrackedFrame tracked;
   const base::Status usable = ros_bridge::guarded([&] { tracked.frame = frameOf(messages); });
   base::Status done = usable;
-  if (usable.ok() && state_.recording)
-    done = ros_bridge::guarded([&] { track(messages.color->header, robot, &tracked); });
-  if (!done.ok() && state_.status != TrackingState::NOT_STARTED)
-    state_.status = TrackingState::LOST;
-  state_.input_ok = usable.ok();
-  tracked.state = state_;
+  if (usable.ok() && recording)
+    done = ros_bridge::guarded([&] { record(messages.color->header, robot, &tracked); });
+  if (!done.ok())
+    setLost();
+  input_ok_ = usable.ok();
+  count(&tracked.state);
   if (tracked.result)
-  {
     describe(*tracked.result, &tracked.state);
-    tracked.state.robot_motion_used = robot.T_robot_camera.has_value();
-  }
   if (!done.ok())
     tracked.state.reason = done.message;
-  if (state_.recording)
+  if (recording)
     say(robot, &tracked.state.reason);
   tracked.state.header = messages.color->header;
   tracked.state.processing_s = static_cast<float>((ros::WallTime::now() - begin).toSec());
@@ -248,7 +213,8 @@ TrackedFrame Recording::process(const FrameMessages& messages, std::size_t dropp
 TrackingState Recording::state(const ros::Time& now)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  TrackingState state = state_;
+  TrackingState state;
+  count(&state);
   state.header.stamp = now;
   return state;
 }
@@ -257,9 +223,8 @@ TrackingState Recording::inputProblem(const std::string& reason, const ros::Time
 {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (state_.status != TrackingState::NOT_STARTED)
-      state_.status = TrackingState::LOST;
-    state_.input_ok = false;
+    setLost();
+    input_ok_ = false;
   }
   TrackingState problem = state(now);
   problem.reason = reason;

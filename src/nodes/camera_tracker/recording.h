@@ -9,6 +9,7 @@
 
 #include "camera_tracker_options.h"
 #include "frame_pairer.h"
+#include "object_modelling/pipeline/session_recorder.h"
 #include "object_modelling/rgbd/frame_builder.h"
 #include "robot_motion.h"
 #include "session_record.h"
@@ -23,13 +24,13 @@ struct TrackedFrame
   std::optional<tracking::TrackingResult> result;  ///< if it was given to the tracker
 };
 
-/// Between ~start and ~stop: the tracker and the session that it records. Thread safe: services and frames come from
-/// different threads. Throws base::Error where it refuses.
+/// Between ~start and ~stop: messages into the recorder of a session, and its state out. Thread safe: services and
+/// frames come from different threads. Throws base::Error where it refuses.
 class Recording
 {
 public:
-  /// `record` may be null: then nothing is stored. It must outlive this.
-  Recording(const CameraTrackerNodeOptions& options, SessionRecord* record);
+  /// `record` must outlive this.
+  Recording(const CameraTrackerNodeOptions& options, SessionRecord& record);
 
   /// Gives the id of the session that begins; an empty one is made from `now`.
   std::string start(const std::string& session_id, const std::string& object_id, bool resume, const ros::Time& now);
@@ -47,23 +48,20 @@ public:
 
 private:
   rgbd::Frame frameOf(const FrameMessages& messages);
-  void track(const std_msgs::Header& header, const RobotPose& robot, TrackedFrame* tracked);
-  void requireNewer(const ros::Time& stamp);
+  void record(const std_msgs::Header& header, const RobotPose& robot, TrackedFrame* tracked);
   void say(const RobotPose& robot, std::string* reason);
-  void createSession(const std_msgs::Header& header);
+  void setLost();
+  void count(object_modelling::TrackingState* state) const;
 
   std::mutex mutex_;
   CameraTrackerNodeOptions options_;
-  SessionRecord* record_;
+  SessionRecord& record_;
   rgbd::FrameBuilder builder_;
-  segmentation::ObjectFollower follower_;
-  tracking::CameraTracker tracker_;
-  keyframes::Session session_;
-  bool created_ = false;  ///< the session is in the store, or need not be
-  int sent_keyframes_ = 0;
-  ros::Time last_stamp_;                   ///< of the session; 0 before its first frame
-  std::string robot_problem_;              ///< that has been said and has not gone since
-  object_modelling::TrackingState state_;  ///< running counts; what a frame says is filled in a copy
+  pipeline::SessionRecorder recorder_;
+  tracking::TrackingStatus status_ = tracking::TrackingStatus::NOT_STARTED;
+  bool input_ok_ = false;
+  int dropped_frames_ = 0;     ///< of the session
+  std::string robot_problem_;  ///< that has been said and has not gone since
 };
 
 }  // namespace object_modelling::nodes

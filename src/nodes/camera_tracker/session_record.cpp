@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <thread>
+#include <utility>
 
 namespace object_modelling::nodes
 {
@@ -10,16 +11,18 @@ namespace
 constexpr std::chrono::milliseconds POLL_PERIOD(50);
 }
 
-SessionRecord::SessionRecord(keyframes::SessionStore& store, double stored_timeout_s)
-    : store_(store), stored_timeout_s_(stored_timeout_s)
+SessionRecord::SessionRecord(Publish publish, keyframes::SessionStore* store, double stored_timeout_s)
+    : publish_(std::move(publish)), store_(store), stored_timeout_s_(stored_timeout_s)
 {
 }
 
 bool SessionRecord::has(const std::string& session_id)
 {
+  if (store_ == nullptr)
+    return false;
   try
   {
-    store_.session(session_id);
+    store_->session(session_id);
     return true;
   }
   catch (const base::Error& error)
@@ -46,46 +49,42 @@ std::string SessionRecord::freeId(const std::string& session_id)
   return id;
 }
 
+void SessionRecord::create(const keyframes::Session& session)
+{
+  if (store_ != nullptr)
+    pipeline::StoreSink(*store_).create(session);
+}
+
 std::vector<rgbd::Keyframe> SessionRecord::reopen(const std::string& session_id,
                                                   const rgbd::SensorNoiseModel& noise_model)
 {
-  const keyframes::Session session = store_.session(session_id);
-  if (session.calibration.noise_model != noise_model)
-    throw base::Error(base::StatusCode::FAILED_PRECONDITION,
-                      "session '" + session_id +
-                          "' was recorded with another noise model, which its depth has been corrected by; start the "
-                          "tracker with that one (noise_model), or record a new session");
-  std::vector<rgbd::Keyframe> keyframes = keyframes::loadKeyframes(store_, session_id);
-  if (keyframes.empty())
-    throw base::Error(base::StatusCode::NO_RESULT,
-                      "session '" + session_id + "' has no keyframes to continue from; delete it and start anew");
-  // The keyframes to come are not refined and show no object yet.
-  keyframes::SessionChange change;
-  change.closed = false;
-  change.refined = change.segmented = keyframes::StageMark();
-  change.refinement_report = "";
-  change.support_plane_session = std::optional<geometry::Plane>();
-  store_.update(session_id, change);
-  return keyframes;
+  if (store_ == nullptr)
+    throw base::Error(base::StatusCode::INVALID_ARGUMENT, "session '" + session_id + "' is in no store");
+  return pipeline::StoreSink(*store_).reopen(session_id, noise_model);
 }
 
-void SessionRecord::finish(const std::string& session_id, int sent_keyframe_count)
+void SessionRecord::add(const std::string& session_id, const rgbd::Keyframe& keyframe,
+                        const std::string& camera_frame_id)
 {
+  publish_(keyframe, session_id, camera_frame_id);
+}
+
+void SessionRecord::close(const std::string& session_id, int keyframe_count)
+{
+  if (store_ == nullptr)
+    return;
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(stored_timeout_s_);
-  keyframes::Session session = store_.session(session_id);
-  while (session.keyframe_count < sent_keyframe_count && std::chrono::steady_clock::now() < deadline)
+  int stored_count = store_->session(session_id).keyframe_count;
+  while (stored_count < keyframe_count && std::chrono::steady_clock::now() < deadline)
   {
     std::this_thread::sleep_for(POLL_PERIOD);
-    session = store_.session(session_id);
+    stored_count = store_->session(session_id).keyframe_count;
   }
-  keyframes::SessionChange change;
-  change.closed = true;
-  store_.update(session_id, change);
-  if (session.keyframe_count < sent_keyframe_count)
-    throw base::Error(base::StatusCode::STORAGE, "the keyframe store has " + std::to_string(session.keyframe_count) +
-                                                     " of the " + std::to_string(sent_keyframe_count) +
-                                                     " keyframes of session '" + session_id +
-                                                     "'; its ~state and log say why");
+  pipeline::StoreSink(*store_).close(session_id, stored_count);
+  if (stored_count < keyframe_count)
+    throw base::Error(base::StatusCode::STORAGE, "the keyframe store has " + std::to_string(stored_count) + " of the " +
+                                                     std::to_string(keyframe_count) + " keyframes of session '" +
+                                                     session_id + "'; its ~state and log say why");
 }
 
 }  // namespace object_modelling::nodes

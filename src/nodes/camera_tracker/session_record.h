@@ -1,35 +1,43 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "object_modelling/keyframes/session_store.h"
+#include "object_modelling/pipeline/session_sink.h"
 
 namespace object_modelling::nodes
 {
-/// The tracker's side of a session in the keyframe store. Throws base::Error as the store does. Not thread safe.
-class SessionRecord
+/// The tracker's side of a session: its record goes to the keyframe store, if there is one, and keyframes to the topic
+/// that the store takes them from. What is stored stays. Throws base::Error as the store does. Not thread safe.
+class SessionRecord : public pipeline::SessionSink
 {
 public:
-  /// `store` must outlive this.
-  SessionRecord(keyframes::SessionStore& store, double stored_timeout_s);
+  using Publish = std::function<void(const rgbd::Keyframe& keyframe, const std::string& session_id,
+                                     const std::string& camera_frame_id)>;
 
+  /// `store` may be null: then keyframes are only published. It must outlive this.
+  SessionRecord(Publish publish, keyframes::SessionStore* store, double stored_timeout_s);
+
+  bool stores() const { return store_ != nullptr; }
   /// FAILED_PRECONDITION if the store has a session of this id.
   void requireFree(const std::string& session_id);
   /// `session_id`, or that with _2, _3, ... if it is taken.
   std::string freeId(const std::string& session_id);
 
-  void create(const keyframes::Session& session) { store_.createSession(session); }
-  /// Opens a stored session again and gives its keyframes; NO_RESULT if it has none, FAILED_PRECONDITION if it was
-  /// recorded with another noise model.
-  std::vector<rgbd::Keyframe> reopen(const std::string& session_id, const rgbd::SensorNoiseModel& noise_model);
+  void create(const keyframes::Session& session) override;
+  /// INVALID_ARGUMENT without a store.
+  std::vector<rgbd::Keyframe> reopen(const std::string& session_id, const rgbd::SensorNoiseModel& noise_model) override;
+  void add(const std::string& session_id, const rgbd::Keyframe& keyframe, const std::string& camera_frame_id) override;
   /// Waits until the store has as many keyframes as were sent, then closes the session. STORAGE if some never arrive.
-  void finish(const std::string& session_id, int sent_keyframe_count);
+  void close(const std::string& session_id, int keyframe_count) override;
+  void discard(const std::string&) noexcept override {}
 
 private:
   bool has(const std::string& session_id);
 
-  keyframes::SessionStore& store_;
+  Publish publish_;
+  keyframes::SessionStore* store_;
   double stored_timeout_s_;
 };
 

@@ -51,14 +51,17 @@ void TrackingPublisher::publishPose(const tracking::TrackingResult& result, cons
   broadcaster_.sendTransform(transform);
 }
 
+void TrackingPublisher::publishKeyframe(const rgbd::Keyframe& keyframe, const std::string& session_id,
+                                        const std::string& camera_frame_id)
+{
+  keyframe_.publish(ros_bridge::toMessage(keyframe, session_id, camera_frame_id));
+}
+
 void TrackingPublisher::publish(const TrackedFrame& tracked)
 {
   const std_msgs::Header& header = tracked.state.header;
   if (tracked.result && tracked.result->keyframe)
-  {
-    keyframe_.publish(ros_bridge::toMessage(*tracked.result->keyframe, tracked.state.session_id, header.frame_id));
     debug_.setKeyframe(*tracked.result->keyframe);
-  }
   if (tracked.result && tracked.result->tracked())
     publishPose(*tracked.result, header);
   if (tracked.frame && debug_image_.getNumSubscribers() > 0)

@@ -8,12 +8,14 @@
 
 namespace object_modelling::nodes
 {
-/// Publishes what became of frames: ~keyframe, ~pose, tf, ~debug_image, and last the latched ~state.
+/// Publishes what became of frames: ~pose, tf, ~debug_image, and last the latched ~state; and ~keyframe, before them.
 class TrackingPublisher
 {
 public:
   TrackingPublisher(ros::NodeHandle& private_node, const CameraTrackerNodeOptions& options);
 
+  void publishKeyframe(const rgbd::Keyframe& keyframe, const std::string& session_id,
+                       const std::string& camera_frame_id);
   void publish(const TrackedFrame& tracked);
   void publishState(const object_modelling::TrackingState& state) { state_.publish(state); }
 
