@@ -96,14 +96,14 @@ double depthUnit_m(const cv::Mat& depth_m)
 }
 }  // namespace
 
-std::string encodeMask(const cv::Mat& object_mask, int width, int height)
+std::string encodeMask(const cv::Mat& mask, int width, int height, const std::string& what)
 {
-  if (object_mask.empty())
+  if (mask.empty())
     return "";
-  if (object_mask.type() != CV_8UC1 || object_mask.size() != cv::Size(width, height))
-    throw Error(StatusCode::INVALID_ARGUMENT, "object mask must be CV_8UC1 of " + std::to_string(width) + " x " +
-                                                  std::to_string(height) + " px, not " + sizeText(object_mask) + " px");
-  return encodePng(object_mask);
+  if (mask.type() != CV_8UC1 || mask.size() != cv::Size(width, height))
+    throw Error(StatusCode::INVALID_ARGUMENT, what + " must be CV_8UC1 of " + std::to_string(width) + " x " +
+                                                  std::to_string(height) + " px, not " + sizeText(mask) + " px");
+  return encodePng(mask);
 }
 
 EncodedKeyframe encodeKeyframe(const rgbd::Keyframe& keyframe)
@@ -121,6 +121,7 @@ EncodedKeyframe encodeKeyframe(const rgbd::Keyframe& keyframe)
                                                   { return encodePng(rgbd::depthAs16Bit(frame.depth_m, unit_m)); });
   row.color_png = encodePng(frame.color_bgr);
   row.mask_png = encodeMask(frame.object_mask, frame.camera.width, frame.camera.height);
+  row.moving_mask_png = encodeMask(frame.moving_mask, frame.camera.width, frame.camera.height, "moving mask");
   row.observations = encodeObservations(keyframe.observations);
   row.depth_png = depth_png.get();
   return row;
@@ -143,6 +144,8 @@ rgbd::Keyframe decodeKeyframe(const EncodedKeyframe& row, const std::string& wha
       rgbd::depthInMetres(decodePng(row.depth_png, CV_16UC1, size, "depth image of " + what), row.depth_unit_m);
   if (!row.mask_png.empty())
     frame.object_mask = decodePng(row.mask_png, CV_8UC1, size, "mask of " + what);
+  if (!row.moving_mask_png.empty())
+    frame.moving_mask = decodePng(row.moving_mask_png, CV_8UC1, size, "moving mask of " + what);
   return keyframe;
 }
 

@@ -40,12 +40,14 @@ void insertImages(soci::session& sql, const SqlDialect& dialect, const std::stri
   const std::string color = dialect.encodeBlob(row.color_png);
   const std::string depth = dialect.encodeBlob(row.depth_png);
   const std::string observations = dialect.encodeBlob(row.observations);
-  sql << "INSERT INTO keyframe_images (session_id, keyframe_id, color_png, depth_png, depth_unit_m, observations) "
-         "VALUES (:session_id, :keyframe_id, "
+  const std::string moving_mask = dialect.encodeBlob(row.moving_mask_png);
+  soci::indicator has_moving_mask = row.moving_mask_png.empty() ? soci::i_null : soci::i_ok;
+  sql << "INSERT INTO keyframe_images (session_id, keyframe_id, color_png, depth_png, depth_unit_m, observations, "
+         "moving_mask_png) VALUES (:session_id, :keyframe_id, "
       << dialect.blobValue(":color") << ", " << dialect.blobValue(":depth") << ", :depth_unit_m, "
-      << dialect.blobValue(":observations") << ")",
+      << dialect.blobValue(":observations") << ", " << dialect.blobValue(":moving_mask") << ")",
       soci::use(session_id), soci::use(row.id), soci::use(color), soci::use(depth), soci::use(row.depth_unit_m),
-      soci::use(observations);
+      soci::use(observations), soci::use(moving_mask, has_moving_mask);
 }
 }  // namespace
 
@@ -88,9 +90,10 @@ EncodedKeyframe selectKeyframe(soci::session& sql, const SqlDialect& dialect, co
   EncodedKeyframe row;
   row.id = keyframe_id;
   std::string distortion;
-  soci::indicator has_mask = soci::i_null;
+  soci::indicator has_mask = soci::i_null, has_moving_mask = soci::i_null;
   sql << "SELECT stamp_s, width_px, height_px, fx_px, fy_px, cx_px, cy_px, distortion, session_from_camera, "
-         "covariance, color_png, depth_png, depth_unit_m, observations, mask_png FROM keyframes "
+         "covariance, color_png, depth_png, depth_unit_m, observations, moving_mask_png, mask_png FROM "
+         "keyframes "
          "JOIN keyframe_images ON keyframe_images.session_id = keyframes.session_id "
          "AND keyframe_images.keyframe_id = keyframes.keyframe_id "
          "LEFT JOIN keyframe_masks ON keyframe_masks.session_id = keyframes.session_id "
@@ -100,7 +103,8 @@ EncodedKeyframe selectKeyframe(soci::session& sql, const SqlDialect& dialect, co
       soci::into(row.camera.fy), soci::into(row.camera.cx), soci::into(row.camera.cy), soci::into(distortion),
       soci::into(row.session_from_camera), soci::into(row.covariance), soci::into(row.color_png),
       soci::into(row.depth_png), soci::into(row.depth_unit_m), soci::into(row.observations),
-      soci::into(row.mask_png, has_mask), soci::use(session_id), soci::use(keyframe_id);
+      soci::into(row.moving_mask_png, has_moving_mask), soci::into(row.mask_png, has_mask), soci::use(session_id),
+      soci::use(keyframe_id);
   if (!sql.got_data())
   {
     selectSession(sql, session_id);
@@ -111,6 +115,7 @@ EncodedKeyframe selectKeyframe(soci::session& sql, const SqlDialect& dialect, co
   row.depth_png = dialect.decodeBlob(row.depth_png);
   row.observations = dialect.decodeBlob(row.observations);
   row.mask_png = has_mask == soci::i_ok ? dialect.decodeBlob(row.mask_png) : "";
+  row.moving_mask_png = has_moving_mask == soci::i_ok ? dialect.decodeBlob(row.moving_mask_png) : "";
   return row;
 }
 

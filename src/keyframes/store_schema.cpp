@@ -56,6 +56,12 @@ void addStageMarks(soci::session& sql, const SqlDialect&)
   sql << "UPDATE sessions SET segmented_by = 'unknown' WHERE support_plane_session IS NOT NULL";
 }
 
+// Beside the images, as a measurement of the tracker: written once, whatever becomes of the object's mask.
+void addMovingMasks(soci::session& sql, const SqlDialect& dialect)
+{
+  sql << "ALTER TABLE keyframe_images ADD COLUMN moving_mask_png " << dialect.blobType();
+}
+
 int readVersion(soci::session& sql, const SqlDialect& dialect)
 {
   const std::vector<std::string> tables = dialect.tables(sql);
@@ -75,7 +81,7 @@ int readVersion(soci::session& sql, const SqlDialect& dialect)
 const std::vector<Migration>& storeMigrations()
 {
   static const std::vector<Migration> MIGRATIONS = { createTables, addCalibrationAndReport, createAlignments,
-                                                     addStageMarks };
+                                                     addStageMarks, addMovingMasks };
   return MIGRATIONS;
 }
 

@@ -105,20 +105,17 @@ RecordedFrame SessionRecorder::notNewer(rgbd::Frame frame)
 void SessionRecorder::track(const std::optional<Eigen::Isometry3d>& T_robot_camera, RecordedFrame* recorded)
 {
   using Clock = std::chrono::steady_clock;
-  segmentation::FollowedObject object;
   if (onObject())
   {
     // Without a mask the tracker says itself that the frame cannot be placed.
-    object = follower_.follow(recorded->frame);
+    const segmentation::FollowedObject object = follower_.follow(recorded->frame);
     recorded->object = object.status;
-    recorded->frame.object_mask = object.moving();
+    recorded->frame.object_mask = object.mask;
+    recorded->frame.moving_mask = object.moving();
   }
   const Clock::time_point start = Clock::now();
   recorded->result = tracker_.track(recorded->frame, T_robot_camera);
   recorded->track_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-  // A turntable helps to track the object and is no part of it.
-  if (onObject() && recorded->result.keyframe)
-    recorded->result.keyframe->frame.object_mask = object.mask;
 }
 
 RecordedFrame SessionRecorder::process(rgbd::Frame frame, const std::string& camera_frame_id,

@@ -14,25 +14,32 @@ namespace object_modelling::pipeline
 {
 namespace
 {
-/// Turntables count for the motion of their objects, and are not in the stored masks. The tracker knows better than a
-/// single view whether something is one: it has landmarks there.
-void addTurntables(std::vector<rgbd::Keyframe>* keyframes)
+/// The turntable of a keyframe whose recording did not say what moves with the object; empty where there is none. The
+/// tracker knows better than a single view whether something is one: it has landmarks there.
+cv::Mat turntableOf(const rgbd::Keyframe& keyframe)
 {
   constexpr int MIN_LANDMARKS = 5;
+  const cv::Mat turntable = segmentation::findTurntable(keyframe.frame);
+  const auto landmarks = std::count_if(
+      keyframe.observations.begin(), keyframe.observations.end(),
+      [&](const rgbd::Observation& seen)
+      {
+        const cv::Point pixel(cvRound(seen.pixel.x()), cvRound(seen.pixel.y()));
+        return cv::Rect({ 0, 0 }, turntable.size()).contains(pixel) && turntable.at<std::uint8_t>(pixel) != 0;
+      });
+  return landmarks >= MIN_LANDMARKS ? turntable : cv::Mat();
+}
+
+/// Turntables count for the motion of their objects, and are not in the masks of these.
+void addTurntables(std::vector<rgbd::Keyframe>* keyframes)
+{
   for (rgbd::Keyframe& keyframe : *keyframes)
   {
-    if (keyframe.frame.object_mask.empty())
-      continue;
-    const cv::Mat turntable = segmentation::findTurntable(keyframe.frame);
-    const auto landmarks = std::count_if(
-        keyframe.observations.begin(), keyframe.observations.end(),
-        [&](const rgbd::Observation& seen)
-        {
-          const cv::Point pixel(cvRound(seen.pixel.x()), cvRound(seen.pixel.y()));
-          return cv::Rect({ 0, 0 }, turntable.size()).contains(pixel) && turntable.at<std::uint8_t>(pixel) != 0;
-        });
-    if (landmarks >= MIN_LANDMARKS)
-      keyframe.frame.object_mask = keyframe.frame.object_mask | turntable;
+    rgbd::Frame& frame = keyframe.frame;
+    if (frame.moving_mask.empty() && !frame.object_mask.empty())
+      if (const cv::Mat turntable = turntableOf(keyframe); !turntable.empty())
+        frame.moving_mask = frame.object_mask | turntable;
+    frame.object_mask = frame.trackedMask();
   }
 }
 

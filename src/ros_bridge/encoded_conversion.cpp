@@ -22,6 +22,7 @@ object_modelling::EncodedKeyframe toMessage(const keyframes::EncodedKeyframe& ke
   message.depth_unit_m = keyframe.depth_unit_m;
   message.observations.assign(keyframe.observations.begin(), keyframe.observations.end());
   message.mask_png.assign(keyframe.mask_png.begin(), keyframe.mask_png.end());
+  message.moving_mask_png.assign(keyframe.moving_mask_png.begin(), keyframe.moving_mask_png.end());
   message.calibration = toMessage(keyframe.calibration);
   return message;
 }
@@ -45,6 +46,7 @@ keyframes::EncodedKeyframe fromMessage(const object_modelling::EncodedKeyframe& 
   keyframe.depth_unit_m = message.depth_unit_m;
   keyframe.observations.assign(message.observations.begin(), message.observations.end());
   keyframe.mask_png.assign(message.mask_png.begin(), message.mask_png.end());
+  keyframe.moving_mask_png.assign(message.moving_mask_png.begin(), message.moving_mask_png.end());
   keyframe.calibration = fromMessage(message.calibration);
   return keyframe;
 }

@@ -41,12 +41,15 @@ rgbd::Frame frameFromMessage(const object_modelling::Keyframe& message)
   }
   frame.depth_m = rgbd::depthInMetres(depthFromMessage(message.depth), MILLIMETRE_M);
   frame.object_mask = maskFromMessage(message.object_mask);
+  frame.moving_mask = maskFromMessage(message.moving_mask);
   if (message.has_noise_model)
     frame.noise_model = fromMessage(message.noise_model);
   requireSize(frame.color_bgr, frame.camera, "colour");
   requireSize(frame.depth_m, frame.camera, "depth");
   if (!frame.object_mask.empty())
     requireSize(frame.object_mask, frame.camera, "object mask");
+  if (!frame.moving_mask.empty())
+    requireSize(frame.moving_mask, frame.camera, "moving mask");
   return frame;
 }
 }  // namespace
@@ -63,6 +66,7 @@ object_modelling::Keyframe toMessage(const rgbd::Keyframe& keyframe, const std::
   message.color = toMessage(keyframe.frame.color_bgr, message.header);
   message.depth = toMessage(keyframe.frame.depth_m, message.header);
   message.object_mask = toMessage(keyframe.frame.object_mask, message.header);
+  message.moving_mask = toMessage(keyframe.frame.moving_mask, message.header);
   message.session_from_camera = toMessage(keyframe.T_session_camera, keyframe.covariance);
   message.has_noise_model = true;
   message.noise_model = toMessage(keyframe.frame.noise_model);

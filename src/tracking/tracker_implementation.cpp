@@ -47,17 +47,24 @@ std::string CameraTracker::Implementation::refuse(const rgbd::Frame& frame) cons
   return {};
 }
 
+rgbd::Frame CameraTracker::Implementation::withReferenceMask(rgbd::Frame frame) const
+{
+  // Masks may come with some frames of a scene too; they say nothing of what stands still.
+  frame.object_mask = objectOnly() ? frame.trackedMask() : cv::Mat();
+  frame.moving_mask.release();
+  return frame;
+}
+
 TrackingResult CameraTracker::Implementation::track(const rgbd::Frame& given,
                                                     const std::optional<Eigen::Isometry3d>& T_robot_camera)
 {
   T_robot_camera_ = T_robot_camera;
-  // Masks may come with some frames of a scene too; they say nothing of what stands still.
-  rgbd::Frame frame = given;
-  if (!objectOnly())
-    frame.object_mask.release();
-  TrackingResult result = trackUsable(frame);
+  TrackingResult result = trackUsable(withReferenceMask(given));
   if (result.keyframe)
+  {
     result.keyframe->frame.object_mask = given.object_mask;
+    result.keyframe->frame.moving_mask = given.moving_mask;
+  }
   return result;
 }
 
@@ -237,9 +244,7 @@ void CameraTracker::Implementation::resume(const std::vector<rgbd::Keyframe>& ke
     known.id = keyframe.id;
     known.T_session_camera = keyframe.T_session_camera;
     known.covariance = keyframe.covariance;
-    known.frame = keyframe.frame;
-    if (!objectOnly())
-      known.frame.object_mask.release();
+    known.frame = withReferenceMask(keyframe.frame);
     known.pyramid = registration::ImagePyramid(keyframe.frame.gray).copyLevels();
     std::vector<double> depths_m;
     for (const rgbd::Observation& observation : keyframe.observations)

@@ -57,6 +57,8 @@ private:
     bool chained = false;  ///< aligned with the frame before instead
   };
 
+  /// With what it is tracked against as its object mask; empty for all of it.
+  rgbd::Frame withReferenceMask(rgbd::Frame frame) const;
   /// track() for a frame whose object mask, if any, counts.
   TrackingResult trackUsable(const rgbd::Frame& frame);
   /// Moves the depth to where the camera was when it took the colour image.

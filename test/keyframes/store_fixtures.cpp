@@ -42,6 +42,8 @@ rgbd::Keyframe makeKeyframe(int id, int width, int height)
           (u + v) % 7 == 0 ? std::numeric_limits<float>::quiet_NaN() : 0.5f + 0.00123f * u + 0.00071f * v + 0.01f * id;
   frame.object_mask = cv::Mat::zeros(height, width, CV_8UC1);
   cv::circle(frame.object_mask, { width / 2, height / 2 }, height / 4, cv::Scalar(255), cv::FILLED);
+  frame.moving_mask = frame.object_mask.clone();
+  frame.moving_mask.rowRange(height / 2, height).setTo(255);
   keyframe.T_session_camera = Eigen::Translation3d(0.1 * id, 1.0 / 3, -0.7) *
                               Eigen::AngleAxisd(0.3 * id + 0.1, Eigen::Vector3d(1, 2, 3).normalized());
   keyframe.covariance.diagonal() << 1e-6, 2e-6, 3e-6, 1e-5, 2e-5, 1.0 / 3e5;
@@ -98,6 +100,7 @@ void expectSame(const rgbd::Keyframe& actual, const rgbd::Keyframe& expected)
   EXPECT_TRUE(identical(actual.frame.color_bgr, expected.frame.color_bgr)) << "colour of keyframe " << expected.id;
   EXPECT_TRUE(identical(actual.frame.gray, expected.frame.gray)) << "gray of keyframe " << expected.id;
   EXPECT_TRUE(identical(actual.frame.object_mask, expected.frame.object_mask)) << "mask of keyframe " << expected.id;
+  EXPECT_TRUE(identical(actual.frame.moving_mask, expected.frame.moving_mask)) << "keyframe " << expected.id;
   EXPECT_EQ(actual.T_session_camera.matrix(), expected.T_session_camera.matrix());
   EXPECT_EQ(actual.covariance, expected.covariance);
   ASSERT_EQ(actual.observations.size(), expected.observations.size());

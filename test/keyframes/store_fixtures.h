@@ -17,7 +17,7 @@ public:
   TemporaryFolder() { std::filesystem::permissions(path(), std::filesystem::perms::all); }
 };
 
-/// A keyframe with a textured image, slanted depth with holes, a mask and observations; another for every id.
+/// A keyframe with a textured image, slanted depth with holes, masks and observations; another for every id.
 rgbd::Keyframe makeKeyframe(int id, int width = 64, int height = 48);
 Session makeSession(const std::string& id);
 /// No two coefficients alike, none the default.

@@ -42,13 +42,14 @@ TEST(KeyframeCodec, KeepsMissingDepthMissing)
   EXPECT_EQ(depthDifference_m(decoded.frame.depth_m, keyframe.frame.depth_m), 0);
 }
 
-TEST(KeyframeCodec, WorksWithoutMaskAndObservations)
+TEST(KeyframeCodec, WorksWithoutMasksAndObservations)
 {
   rgbd::Keyframe keyframe = makeKeyframe(1);
   keyframe.frame.object_mask.release();
+  keyframe.frame.moving_mask.release();
   keyframe.observations.clear();
   const EncodedKeyframe row = encodeKeyframe(keyframe);
-  EXPECT_TRUE(row.mask_png.empty());
+  EXPECT_TRUE(row.mask_png.empty() && row.moving_mask_png.empty());
   EXPECT_EQ(row.observations.size(), 4u);
   expectSame(decodeKeyframe(row, ""), keyframe);
 }
@@ -75,6 +76,7 @@ TEST(KeyframeCodec, RefusesWhatCannotBeStored)
   EXPECT_TRUE(refused([](rgbd::Keyframe* k) { k->frame.depth_m = k->frame.depth_m.rowRange(0, 10); }));
   EXPECT_TRUE(refused([](rgbd::Keyframe* k) { k->frame.depth_m = cv::Mat::ones(48, 64, CV_16UC1); }));
   EXPECT_TRUE(refused([](rgbd::Keyframe* k) { k->frame.object_mask = cv::Mat::ones(4, 6, CV_8UC1); }));
+  EXPECT_TRUE(refused([](rgbd::Keyframe* k) { k->frame.moving_mask = cv::Mat::ones(4, 6, CV_8UC1); }));
   EXPECT_TRUE(refused([](rgbd::Keyframe* k) { k->frame.camera.width = 63; }));
   EXPECT_TRUE(refused([](rgbd::Keyframe* k) { k->frame.camera.fx = 0; }));
   EXPECT_TRUE(refused([](rgbd::Keyframe* k) { k->frame.stamp_s = std::nan(""); }));
@@ -96,6 +98,7 @@ TEST(KeyframeCodec, NamesDamagedParts)
   damaged([](EncodedKeyframe* r) { r->color_png.clear(); }, "colour image");
   damaged([](EncodedKeyframe* r) { r->depth_png = r->mask_png; }, "depth image");
   damaged([](EncodedKeyframe* r) { r->mask_png = r->color_png; }, "mask");
+  damaged([](EncodedKeyframe* r) { r->moving_mask_png = r->color_png; }, "moving mask");
   damaged([](EncodedKeyframe* r) { r->observations.pop_back(); }, "observations");
   damaged([](EncodedKeyframe* r) { r->observations = "\xff\xff\xff\xff"; }, "observations");
   damaged([](EncodedKeyframe* r) { r->observations.clear(); }, "observations");

@@ -26,6 +26,7 @@ protected:
     store_->createSession(makeSession("other"));
     rgbd::Keyframe unmasked = makeKeyframe(1);
     unmasked.frame.object_mask.release();
+    unmasked.frame.moving_mask.release();
     store_->addKeyframe("a", makeKeyframe(0));
     store_->addKeyframe("a", unmasked);
   }

@@ -263,6 +263,8 @@ TEST_P(SqlStore, UpdatesMasksAllOrNone)
                 }),
             StatusCode::NOT_FOUND);
   EXPECT_EQ(countIn(0), 1);
+  // What moved with the object was measured, and stays.
+  EXPECT_EQ(cv::norm(store_->keyframe("a", 0).frame.moving_mask, makeKeyframe(0).frame.moving_mask, cv::NORM_INF), 0);
 }
 
 TEST_P(SqlStore, DeletesASessionWithAllThatBelongsToIt)

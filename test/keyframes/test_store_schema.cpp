@@ -91,6 +91,30 @@ TEST_P(StoreSchema, KnowsWhatWasDoneBeforeThereWereMarks)
   EXPECT_FALSE(store->session("segmented").refined.done());
 }
 
+TEST_P(StoreSchema, TakesKeyframesOfWhichNobodyKeptWhatMoved)
+{
+  const std::vector<Migration> before(storeMigrations().begin(), storeMigrations().begin() + 4);
+  migrate(*connect(), before);
+  execute(
+      "INSERT INTO sessions (session_id, object_id, camera_frame_id, started_s, reference_is_object, closed) "
+      "VALUES ('a', '', 'cam', 1, 1, 1)");
+  execute(
+      "INSERT INTO keyframes (session_id, keyframe_id, stamp_s, width_px, height_px, fx_px, fy_px, cx_px, cy_px, "
+      "distortion, session_from_camera, covariance) VALUES ('a', 0, 12.5, 4, 3, 5, 5, 1, 1, '', '', '')");
+  execute(
+      "INSERT INTO keyframe_images (session_id, keyframe_id, color_png, depth_png, depth_unit_m, observations) "
+      "VALUES ('a', 0, 'colour', 'depth', 0.001, 'points')");
+  execute("INSERT INTO keyframe_masks (session_id, keyframe_id, mask_png) VALUES ('a', 0, 'object')");
+  const std::unique_ptr<SessionStore> store = openSqlStore(connection_);
+  EXPECT_EQ(version(), static_cast<int>(storeMigrations().size()));
+  const EncodedKeyframe encoded = store->encodedKeyframe("a", 0);
+  EXPECT_EQ(encoded.color_png, "colour");
+  EXPECT_EQ(encoded.mask_png, "object");
+  EXPECT_EQ(encoded.moving_mask_png, "");
+  store->addKeyframe("a", makeKeyframe(1));
+  expectSame(store->keyframe("a", 1), makeKeyframe(1));
+}
+
 TEST_P(StoreSchema, MigrationsKeepTheData)
 {
   {

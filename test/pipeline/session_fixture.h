@@ -48,9 +48,9 @@ protected:
                                       .norm());
     return worst_m;
   }
-  int refinedObservationCount()
+  int refinedObservationCount(const std::string& session_id = WALK)
   {
-    const bundle_adjustment::BundleAdjustmentResult result = refineSession(*store_, WALK, {}, control_);
+    const bundle_adjustment::BundleAdjustmentResult result = refineSession(*store_, session_id, {}, control_);
     EXPECT_TRUE(result.status.ok()) << result.status.message;
     int count = 0;
     for (const bundle_adjustment::KeyframeResidual& residual : result.residuals)

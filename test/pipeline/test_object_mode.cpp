@@ -73,18 +73,33 @@ TEST(ObjectMode, TracksByTheTurntableTooAndKeepsItOutOfTheMasks)
   {
     const auto index = std::lround((keyframe.frame.stamp_s - recording.frames[0].stamp_s) * 30);
     EXPECT_GT(overlapRatio(keyframe.frame.object_mask, recording.frames.at(index).object_mask), 0.75) << keyframe.id;
+    EXPECT_GT(cv::countNonZero(keyframe.frame.moving_mask), 1.5 * cv::countNonZero(keyframe.frame.object_mask));
+  }
+
+  // Earlier recordings do not say what moved; there it is found again.
+  keyframes::Session earlier = store->session("with");
+  earlier.id = "earlier";
+  store->createSession(earlier);
+  for (rgbd::Keyframe& keyframe : keyframes::loadKeyframes(*store, "with"))
+  {
+    keyframe.frame.moving_mask.release();
+    store->addKeyframe("earlier", keyframe);
   }
 
   // Bundle adjustment takes the turntable into account again, and leaves the stored masks as they are.
-  const int before = cv::countNonZero(keyframes::loadKeyframes(*store, "with")[0].frame.object_mask);
-  const bundle_adjustment::BundleAdjustmentResult refined = refineSession(*store, "with", {}, control);
-  ASSERT_TRUE(refined.status.ok()) << refined.status.message;
-  const std::vector<rgbd::Keyframe> after = keyframes::loadKeyframes(*store, "with");
-  EXPECT_EQ(cv::countNonZero(after[0].frame.object_mask), before);
-  std::vector<source::StampedPose> poses;
-  for (const rgbd::Keyframe& keyframe : after)
-    poses.push_back({ keyframe.frame.stamp_s, keyframe.T_session_camera });
-  EXPECT_LT(trajectoryError(poses, recording).position_m, 0.01);
+  for (const std::string id : { "with", "earlier" })
+  {
+    const std::vector<rgbd::Keyframe> before = keyframes::loadKeyframes(*store, id);
+    const bundle_adjustment::BundleAdjustmentResult refined = refineSession(*store, id, {}, control);
+    ASSERT_TRUE(refined.status.ok()) << id << ": " << refined.status.message;
+    const std::vector<rgbd::Keyframe> after = keyframes::loadKeyframes(*store, id);
+    EXPECT_EQ(cv::countNonZero(after[0].frame.object_mask), cv::countNonZero(before[0].frame.object_mask)) << id;
+    EXPECT_EQ(cv::countNonZero(after[0].frame.moving_mask), cv::countNonZero(before[0].frame.moving_mask)) << id;
+    std::vector<source::StampedPose> poses;
+    for (const rgbd::Keyframe& keyframe : after)
+      poses.push_back({ keyframe.frame.stamp_s, keyframe.T_session_camera });
+    EXPECT_LT(trajectoryError(poses, recording).position_m, 0.01) << id;
+  }
 }
 
 }  // namespace object_modelling::pipeline

@@ -338,9 +338,9 @@ TEST_F(Recorder, FollowsTheObjectItselfAndWaitsUntilItSeesOne)
     if (!recorded.result.keyframe)
       continue;
     // Tracked by the turntable too, which is no part of the object.
-    const cv::Mat& object = recorded.result.keyframe->frame.object_mask;
-    EXPECT_EQ(cv::countNonZero(object & ~recorded.frame.object_mask), 0);
-    EXPECT_GT(cv::countNonZero(recorded.frame.object_mask), 1.5 * cv::countNonZero(object));
+    const rgbd::Frame& kept = recorded.result.keyframe->frame;
+    EXPECT_EQ(cv::countNonZero(kept.object_mask & ~kept.moving_mask), 0);
+    EXPECT_GT(cv::countNonZero(kept.moving_mask), 1.5 * cv::countNonZero(kept.object_mask));
   }
   EXPECT_EQ(recorder.counts().tracked_count, 11);
   recorder.finish();

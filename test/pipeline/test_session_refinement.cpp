@@ -68,6 +68,27 @@ TEST_F(SessionJobs, RefineUsesTheObjectAloneWhereTheRestMoves)
   EXPECT_LT(object_alone, whole_scene / 2);
 }
 
+TEST_F(SessionJobs, RefineUsesWhatMovedWithTheObject)
+{
+  ASSERT_TRUE(segmentSession(*store_, WALK, std::nullopt, {}, control_).status.ok());
+  const auto observationsBy = [&](const std::string& id, bool all_moves)
+  {
+    keyframes::Session session = named(id);
+    session.reference_is_object = true;
+    store_->createSession(session);
+    for (rgbd::Keyframe& keyframe : keyframes::loadKeyframes(*store_, WALK))
+    {
+      if (all_moves)
+        keyframe.frame.moving_mask = cv::Mat(keyframe.frame.depth_m.size(), CV_8UC1, cv::Scalar(255));
+      store_->addKeyframe(id, keyframe);
+    }
+    return refinedObservationCount(id);
+  };
+  const int object_alone = observationsBy("object", false);
+  EXPECT_GT(object_alone, 0);
+  EXPECT_GT(observationsBy("all", true), 2 * object_alone);
+}
+
 TEST_F(SessionJobs, RefineLeavesPosesThatNothingLinks)
 {
   storeRenderedSession(*store_, "unlinked", 3);

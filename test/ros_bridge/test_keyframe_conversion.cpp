@@ -37,6 +37,8 @@ rgbd::Keyframe someKeyframe()
   keyframe.frame.depth_m.at<float>(0, 0) = NAN;
   keyframe.frame.object_mask = cv::Mat(6, 8, CV_8UC1, cv::Scalar(0));
   keyframe.frame.object_mask.at<std::uint8_t>(3, 3) = 255;
+  keyframe.frame.moving_mask = cv::Mat(6, 8, CV_8UC1, cv::Scalar(0));
+  keyframe.frame.moving_mask.rowRange(3, 5).setTo(255);
   keyframe.T_session_camera = somePose();
   keyframe.covariance = geometry::Matrix6d::Identity() * 1e-4;
   keyframe.covariance(0, 5) = keyframe.covariance(5, 0) = 3e-5;
@@ -58,6 +60,7 @@ TEST(KeyframeConversion, RoundTrip)
   EXPECT_EQ(0, cv::norm(keyframe.frame.color_bgr, back.frame.color_bgr, cv::NORM_INF));
   EXPECT_EQ(0, cv::norm(keyframe.frame.gray, back.frame.gray, cv::NORM_INF));
   EXPECT_EQ(0, cv::norm(keyframe.frame.object_mask, back.frame.object_mask, cv::NORM_INF));
+  EXPECT_EQ(0, cv::norm(keyframe.frame.moving_mask, back.frame.moving_mask, cv::NORM_INF));
   EXPECT_TRUE(std::isnan(back.frame.depth_m.at<float>(0, 0)));
   EXPECT_EQ(0.75f, back.frame.depth_m.at<float>(5, 7));
   EXPECT_TRUE(back.T_session_camera.isApprox(keyframe.T_session_camera, 1e-12));
@@ -66,6 +69,15 @@ TEST(KeyframeConversion, RoundTrip)
   EXPECT_EQ(keyframe.observations[0].landmark_id, back.observations[0].landmark_id);
   EXPECT_EQ(keyframe.observations[0].pixel, back.observations[0].pixel);
   EXPECT_TRUE(std::isnan(back.observations[1].depth_m));
+}
+
+TEST(KeyframeConversion, MasksMayBeMissing)
+{
+  rgbd::Keyframe keyframe = someKeyframe();
+  keyframe.frame.moving_mask.release();
+  EXPECT_TRUE(fromMessage(toMessage(keyframe, "s1", "cam")).frame.moving_mask.empty());
+  keyframe.frame.object_mask.release();
+  EXPECT_TRUE(fromMessage(toMessage(keyframe, "s1", "cam")).frame.object_mask.empty());
 }
 
 TEST(KeyframeConversion, DepthMayComeInMillimetres)
@@ -89,6 +101,9 @@ TEST(KeyframeConversion, PartsOfDifferentSizeAreRefused)
   message = toMessage(someKeyframe(), "s1", "cam");
   message.session_from_camera.pose.orientation.w += 1;
   EXPECT_THROW(fromMessage(message), base::Error);
+  rgbd::Keyframe keyframe = someKeyframe();
+  keyframe.frame.moving_mask = keyframe.frame.moving_mask.rowRange(0, 3);
+  EXPECT_THROW(fromMessage(toMessage(keyframe, "s1", "cam")), base::Error);
   EXPECT_THROW(fromMessage(object_modelling::Keyframe()), base::Error);
 }
 

@@ -28,6 +28,7 @@ rgbd::Keyframe keyframeOf(int id)
   keyframe.frame.color_bgr = cv::Mat(24, 32, CV_8UC3, cv::Scalar::all(10 + id));
   cv::cvtColor(keyframe.frame.color_bgr, keyframe.frame.gray, cv::COLOR_BGR2GRAY);
   keyframe.frame.depth_m = cv::Mat(24, 32, CV_32FC1, cv::Scalar(0.5));
+  keyframe.frame.moving_mask = cv::Mat(24, 32, CV_8UC1, cv::Scalar(255));
   keyframe.T_session_camera.translation().x() = 0.1 * id;
   keyframe.observations = { { 1, { 2, 3 }, 0.5f } };
   return keyframe;
@@ -86,6 +87,7 @@ TEST_F(RemoteSessionStoreTest, Updates)
   store_.update(id_, keyframes::SessionChange::ofPoses({ { 0, T_session_camera, geometry::Matrix6d::Identity() } }));
   store_.update(id_, keyframes::SessionChange::ofMasks({ { 0, cv::Mat(24, 32, CV_8UC1, cv::Scalar(255)) } }));
   const rgbd::Keyframe keyframe = store_.keyframe(id_, 0);
+  EXPECT_EQ(24 * 32, cv::countNonZero(keyframe.frame.moving_mask));
   EXPECT_EQ(0.25, keyframe.T_session_camera.translation().z());
   EXPECT_EQ(24 * 32, cv::countNonZero(keyframe.frame.object_mask));
 

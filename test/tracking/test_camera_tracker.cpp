@@ -183,6 +183,35 @@ TEST(CameraTracker, ObjectModePlacesAndKeepsEveryViewOfATurntable)
   }
 }
 
+TEST(CameraTracker, ObjectModeFollowsWhatMovesWithTheObjectToo)
+{
+  const TrackingScene scene(8, 0.3);
+  CameraTracker by_moving_mask(objectOptions()), by_object_mask(objectOptions());
+  std::vector<rgbd::Keyframe> keyframes;
+  const auto half = [](rgbd::Frame frame)
+  {
+    frame.moving_mask = frame.object_mask;
+    frame.object_mask = frame.object_mask.clone();
+    frame.object_mask.rowRange(0, frame.object_mask.rows / 2).setTo(0);
+    return frame;
+  };
+  for (int i = 0; i < scene.size(); ++i)
+  {
+    const rgbd::Frame frame = half(scene.frame(i));
+    const TrackingResult result = by_moving_mask.track(frame);
+    ASSERT_TRUE(result.tracked()) << i << ": " << result.reason;
+    EXPECT_EQ(result.T_session_camera.matrix(), by_object_mask.track(scene.frame(i)).T_session_camera.matrix()) << i;
+    if (!result.keyframe)
+      continue;
+    keyframes.push_back(*result.keyframe);
+    EXPECT_EQ(cv::countNonZero(result.keyframe->frame.object_mask), cv::countNonZero(frame.object_mask));
+    EXPECT_EQ(cv::countNonZero(result.keyframe->frame.moving_mask), cv::countNonZero(frame.moving_mask));
+  }
+  CameraTracker resumed(objectOptions());
+  resumed.resume(keyframes);
+  EXPECT_EQ(resumed.track(half(scene.frame(0))).status, TrackingStatus::RELOCALISED);
+}
+
 TEST(CameraTracker, ObjectModeNeedsAMask)
 {
   const TrackingScene scene(3);

@@ -17,7 +17,8 @@ struct EncodedKeyframe
   std::string color_png, depth_png;
   double depth_unit_m = 0;
   std::string observations;
-  std::string mask_png;  ///< empty: no mask
+  std::string mask_png;         ///< of the object; empty: no mask
+  std::string moving_mask_png;  ///< of the object with its turntable; empty: not known
   /// Of its session, as it was when the pose was read: one without the other is of no use.
   rgbd::SensorCalibration calibration;
 };

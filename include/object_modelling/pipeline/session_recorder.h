@@ -31,7 +31,7 @@ struct RecordingCounts
 /// What became of one frame.
 struct RecordedFrame
 {
-  rgbd::Frame frame;                     ///< in `object` mode its mask is what it was tracked by
+  rgbd::Frame frame;                     ///< in `object` mode with the masks that it was tracked by
   tracking::TrackingResult result;       ///< its keyframe has been committed
   base::Status object;                   ///< in `object` mode: NO_RESULT where the object cannot be told from the rest
   std::optional<double> newest_stamp_s;  ///< of the session; set where this frame is not newer and was not tracked

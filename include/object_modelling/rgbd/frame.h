@@ -18,9 +18,12 @@ struct Frame
   cv::Mat gray;                    ///< CV_8UC1, of color_bgr
   cv::Mat depth_m;                 ///< CV_32FC1, along the optical axis; NaN where missing
   cv::Mat object_mask;             ///< CV_8UC1, 255 on the object; empty where not known
+  cv::Mat moving_mask;             ///< the same for the object with the turntable that moves with it
   geometry::PinholeCamera camera;  ///< rectified: no distortion
   SensorNoiseModel noise_model;    ///< of the sensor; its bias has been taken off depth_m
 
+  /// What moves with the object, as far as it is known.
+  const cv::Mat& trackedMask() const { return moving_mask.empty() ? object_mask : moving_mask; }
   float depthAt_m(int u, int v) const { return depth_m.at<float>(v, u); }
   /// Optical-frame point of an integer pixel; NaN where depth is missing.
   Eigen::Vector3f point(int u, int v) const

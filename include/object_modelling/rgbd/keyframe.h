@@ -18,7 +18,8 @@ struct Observation
   float depth_m = 0;              ///< NaN where the depth image has none there
 };
 
-/// A frame that is kept. Its frame's object_mask is empty until the object has been segmented.
+/// A frame that is kept. Its frame's object_mask is empty until the object has been segmented; its moving_mask unless
+/// it was tracked on the object.
 struct Keyframe
 {
   int id = -1;  ///< counts from 0 within its session

@@ -21,7 +21,7 @@ enum class TrackingStatus : std::uint8_t
 enum class Reference : std::uint8_t
 {
   SCENE,   ///< all that stands still with respect to the object's support: the whole view
-  OBJECT,  ///< features and depth of Frame::object_mask alone (turntable, object in motion, static background)
+  OBJECT,  ///< features and depth of Frame::trackedMask() alone (turntable, object in motion, static background)
 };
 
 struct CameraTrackerOptions

@@ -51,10 +51,11 @@ cv::Mat DebugImage::draw(const TrackedFrame& tracked) const
 {
   cv::Mat image = tracked.frame->color_bgr.clone();
   const cv::Scalar color = colorOf(tracked.state);
-  if (!tracked.frame->object_mask.empty())
+  const cv::Mat& mask = tracked.frame->trackedMask();
+  if (!mask.empty())
   {
     std::vector<std::vector<cv::Point>> outlines;
-    cv::findContours(tracked.frame->object_mask.clone(), outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+    cv::findContours(mask.clone(), outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
     cv::drawContours(image, outlines, -1, ORANGE, 1);
   }
   if (tracked.result && tracked.result->tracked())
