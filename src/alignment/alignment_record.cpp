@@ -5,10 +5,10 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include "object_modelling/alignment/pair_figures.h"
 #include "object_modelling/base/status.h"
 #include "object_modelling/base/yaml_number.h"
 #include "object_modelling/geometry/transform.h"
+#include "object_modelling/registration/pair_figures.h"
 
 namespace object_modelling::alignment
 {
@@ -52,7 +52,7 @@ void emit(YAML::Emitter& out, const PairCandidate& candidate)
     for (int column = 0; column < 4; ++column)
       out << base::yamlNumber(candidate.T_a_b.matrix()(row, column));
   out << YAML::EndSeq;
-  for (const PairFigure& figure : pairFigures())
+  for (const registration::PairFigure& figure : registration::pairFigures())
     out << YAML::Key << figure.name << YAML::Value << base::yamlNumber(candidate.quality.*figure.value);
   out << YAML::EndMap;
 }
@@ -69,7 +69,7 @@ PairCandidate candidateFrom(const YAML::Node& node)
   const Eigen::Matrix3d R = candidate.T_a_b.linear();
   if (!(R * R.transpose()).isIdentity(MAX_ROTATION_ERROR) || R.determinant() < 0)
     throw base::Error(base::StatusCode::BAD_INPUT, "a_from_b is no rigid motion");
-  for (const PairFigure& figure : pairFigures())
+  for (const registration::PairFigure& figure : registration::pairFigures())
     if (figure.required || node[figure.name])
       candidate.quality.*figure.value = finite(node[figure.name]);
   return candidate;

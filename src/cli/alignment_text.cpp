@@ -1,7 +1,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "object_modelling/alignment/pair_figures.h"
+#include "object_modelling/registration/pair_figures.h"
 #include "report_text.h"
 
 namespace object_modelling::cli
@@ -21,7 +21,7 @@ nlohmann::json toJson(const Eigen::Isometry3d& T)
 nlohmann::json toJson(const alignment::PairCandidate& candidate)
 {
   nlohmann::json json = { { "kind", alignment::nameOf(candidate.kind) }, { "T_a_b", toJson(candidate.T_a_b) } };
-  for (const alignment::PairFigure& figure : alignment::pairFigures())
+  for (const registration::PairFigure& figure : registration::pairFigures())
     json[figure.name] = candidate.quality.*figure.value;
   return json;
 }

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "object_modelling/alignment/pair_figures.h"
 #include "object_modelling/base/status.h"
+#include "object_modelling/registration/pair_figures.h"
 
 namespace object_modelling::alignment
 {
@@ -16,7 +16,7 @@ AlignmentEdge edge()
   candidate.T_a_b =
       Eigen::Translation3d(0.1, -1.0 / 3, 2e-9) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized());
   double value = 4.1e-4;
-  for (const PairFigure& figure : pairFigures())
+  for (const registration::PairFigure& figure : registration::pairFigures())
     candidate.quality.*figure.value = value *= -1.7;
   candidate.quality.probability = 0.975;
   AlignmentEdge result;
@@ -63,13 +63,13 @@ TEST(AlignmentRecord, KeepsEverything)
   const PairCandidate &was = before.candidates[0], &is = after.candidates[0];
   EXPECT_EQ(is.kind, was.kind);
   EXPECT_EQ(is.T_a_b.matrix(), was.T_a_b.matrix());
-  for (const PairFigure& figure : pairFigures())
+  for (const registration::PairFigure& figure : registration::pairFigures())
     EXPECT_EQ(is.quality.*figure.value, was.quality.*figure.value) << figure.name;
 }
 
 TEST(AlignmentRecord, ReadsOneThatLacksWhatWasAddedSince)
 {
-  for (const PairFigure& figure : pairFigures())
+  for (const registration::PairFigure& figure : registration::pairFigures())
   {
     const std::string all = recordOf(edge()).findings;
     const auto from = all.find(std::string("    ") + figure.name + ":");

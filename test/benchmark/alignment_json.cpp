@@ -1,6 +1,6 @@
 #include "alignment_report.h"
 #include "object_modelling/alignment/pair_evidence.h"
-#include "object_modelling/alignment/pair_figures.h"
+#include "object_modelling/registration/pair_figures.h"
 
 namespace object_modelling::benchmark_alignment
 {
@@ -34,7 +34,7 @@ nlohmann::json candidateJson(const alignment::PairCandidate& candidate, const Ca
                           { "rotation_error_deg", nullptr },
                           { "translation_error_mm", nullptr },
                           { "mesh_distance_mm", nullptr } };
-  for (const alignment::PairFigure& figure : alignment::pairFigures())
+  for (const registration::PairFigure& figure : registration::pairFigures())
     json[figure.name] = quality.*figure.value;
   if (errors)
   {

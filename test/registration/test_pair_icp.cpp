@@ -1,3 +1,4 @@
+#include "object_modelling/geometry/transform.h"
 #include "object_modelling/registration/pair_icp.h"
 
 #include <cmath>
@@ -98,7 +99,7 @@ TEST_F(PairIcp, RefinesFromManyStartsEitherWay)
   {
     const Eigen::Isometry3f start = disturbed(T_a_b_, centre_b_, 4 * MM_M, 3 * DEGREE_RAD, seed);
     Eigen::Isometry3f T_a_b = start, T_b_a = start.inverse();
-    const PairQuality quality = refinePose(ab, &T_a_b), inverse_quality = refinePose(ba, &T_b_a);
+    const PairQuality quality = refinePairPose(ab, &T_a_b), inverse_quality = refinePairPose(ba, &T_b_a);
     const std::string what = "start " + std::to_string(seed);
     expectNear(T_a_b, T_a_b_, centre_b_, 0.15, 0.15, what);
     expectNear(T_b_a, T_a_b_.inverse(), centre_a_, 0.15, 0.15, what + ", a on b");
@@ -113,10 +114,10 @@ TEST_F(PairIcp, StaysWhereItIsRight)
 {
   const PartPair pair(a_, b_, 1);
   Eigen::Isometry3f T_a_b = T_a_b_;
-  refinePose(pair, &T_a_b);
+  refinePairPose(pair, &T_a_b);
   expectNear(T_a_b, T_a_b_, centre_b_, 0.15, 0.15, "from the truth");
   const Eigen::Isometry3f once = T_a_b;
-  refinePose(pair, &T_a_b);
+  refinePairPose(pair, &T_a_b);
   expectNear(T_a_b, once, centre_b_, 0.01, 0.01, "again");
 }
 

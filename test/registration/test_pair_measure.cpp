@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "made_part.h"
-#include "object_modelling/alignment/pair_figures.h"
+#include "object_modelling/registration/pair_figures.h"
 
 namespace object_modelling::registration
 {
@@ -69,22 +69,22 @@ TEST(FreeSpaceViolation, IsDecidedByMostOfTheViews)
   constexpr float THROUGH_M = 1.1F, SAME_M = 1, HIDES_M = 0.9F, NOTHING_M = 0;
   enum Verdict
   {
-    keyframes::UNKNOWN,
+    UNKNOWN,
     UPHELD,
     LOOKED_THROUGH
   };
   const std::vector<std::pair<std::vector<float>, Verdict>> cases = {
-    { {}, keyframes::UNKNOWN },
-    { { THROUGH_M }, keyframes::UNKNOWN },
+    { {}, UNKNOWN },
+    { { THROUGH_M }, UNKNOWN },
     { { THROUGH_M, THROUGH_M }, LOOKED_THROUGH },
     { { THROUGH_M, THROUGH_M, SAME_M }, LOOKED_THROUGH },
     { { THROUGH_M, THROUGH_M, SAME_M, SAME_M }, UPHELD },
     { { THROUGH_M, SAME_M }, UPHELD },
     { { SAME_M }, UPHELD },
-    { { HIDES_M, HIDES_M }, keyframes::UNKNOWN },
+    { { HIDES_M, HIDES_M }, UNKNOWN },
     { { THROUGH_M, THROUGH_M, HIDES_M, HIDES_M, HIDES_M }, LOOKED_THROUGH },
     { { SAME_M, HIDES_M, HIDES_M }, UPHELD },
-    { { THROUGH_M, NOTHING_M, NOTHING_M }, keyframes::UNKNOWN },
+    { { THROUGH_M, NOTHING_M, NOTHING_M }, UNKNOWN },
     { { SAME_M, NOTHING_M, NOTHING_M }, UPHELD },
   };
   for (std::size_t i = 0; i < cases.size(); ++i)
@@ -195,7 +195,7 @@ PartialModel printedCorner()
 
 void expectAlike(const PairQuality& one, const PairQuality& other, double tolerance)
 {
-  for (const alignment::PairFigure& figure : alignment::pairFigures())
+  for (const PairFigure& figure : registration::pairFigures())
     EXPECT_NEAR(one.*figure.value, other.*figure.value, tolerance) << figure.name;
 }
 
@@ -311,7 +311,7 @@ TEST(PairMeasure, OfNothingIsNothing)
   {
     const PairQuality quality = measure(nothing, other);
     EXPECT_EQ(quality.overlap_ratio, 0);
-    for (const alignment::PairFigure& figure : alignment::pairFigures())
+    for (const PairFigure& figure : registration::pairFigures())
       EXPECT_TRUE(std::isfinite(quality.*figure.value)) << figure.name;
   }
 }

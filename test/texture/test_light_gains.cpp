@@ -38,7 +38,7 @@ protected:
         const std::uint32_t p = j * SIDE + i, q = p + 1, r = q + SIDE, s = p + SIDE;
         mesh_.triangles.insert(mesh_.triangles.end(), { { p, q, r }, { p, r, s } });
       }
-    geometry::computeNormals(&mesh_);
+    mesh::computeNormals(&mesh_);
     weights_.assign(mesh_.vertices.size(), {});
   }
 
