@@ -7,6 +7,7 @@
 
 #include "link_tracks.h"
 #include "object_modelling/base/connectivity.h"
+#include "object_modelling/base/statistics.h"
 #include "sight_filter.h"
 
 namespace object_modelling::bundle_adjustment
@@ -202,7 +203,7 @@ void BundleAdjuster::approach(int fixed, Adjustment* adjustment) const
   const std::vector<double> errors = sightErrors_sigmas(keyframes_, state);
   if (errors.empty())
     return;
-  const double typical = quantile(errors, TYPICAL_SHARE);
+  const double typical = base::quantile(errors, TYPICAL_SHARE);
   state.map = withoutStrays(state.map, errors, STRAY_FACTOR * typical);
   BundleSolverOptions solver;
   solver.threads = options_.threads;

@@ -7,6 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "object_modelling/base/statistics.h"
 #include "object_modelling/rgbd/surface_fit.h"
 
 namespace object_modelling::bundle_adjustment
@@ -38,8 +39,7 @@ Eigen::Vector3d robustMean(const std::vector<Eigen::Vector3d>& points, double ga
   {
     for (std::size_t i = 0; i < points.size(); ++i)
       values[i] = points[i][axis];
-    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-    median[axis] = values[values.size() / 2];
+    median[axis] = base::median(&values);
   }
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int count = 0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "object_modelling/base/statistics.h"
+
 namespace object_modelling::bundle_adjustment
 {
 namespace
@@ -40,22 +42,15 @@ std::vector<double> sightErrors_sigmas(const std::vector<rgbd::Keyframe>& keyfra
   return errors;
 }
 
-double quantile(std::vector<double> values, double share)
-{
-  const auto position = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), position, values.end());
-  return *position;
-}
-
 LandmarkMap withoutStrays(const LandmarkMap& map, const std::vector<double>& errors, double limit)
 {
   return keepOf(map,
                 [&](std::size_t begin, std::size_t end)
                 {
                   std::vector<std::size_t> selected;
-                  if (quantile({ errors.begin() + static_cast<std::ptrdiff_t>(begin),
-                                 errors.begin() + static_cast<std::ptrdiff_t>(end) },
-                               0.5) > limit)
+                  if (base::quantile(std::vector<double>(errors.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                         errors.begin() + static_cast<std::ptrdiff_t>(end)),
+                                     0.5) > limit)
                     return selected;
                   for (std::size_t i = begin; i < end; ++i)
                     selected.push_back(i);

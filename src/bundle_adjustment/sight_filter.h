@@ -9,9 +9,6 @@ namespace object_modelling::bundle_adjustment
 /// Pixel error of every sight in sigmas.
 std::vector<double> sightErrors_sigmas(const std::vector<rgbd::Keyframe>& keyframes, const BundleState& state);
 
-/// The value that `share` of the values lie below; `values` must not be empty.
-double quantile(std::vector<double> values, double share);
-
 /// The map without landmarks most of whose sights are off by more than `limit`: a mark on the lens, a reflection, the
 /// background of a turntable. They agree among themselves and would tear the keyframes apart while the loss is wide.
 LandmarkMap withoutStrays(const LandmarkMap& map, const std::vector<double>& errors, double limit);

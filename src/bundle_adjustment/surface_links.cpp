@@ -7,6 +7,7 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "object_modelling/base/statistics.h"
 #include "object_modelling/bundle_adjustment/keyframe_linker.h"
 #include "object_modelling/bundle_adjustment/pair_selection.h"
 #include "object_modelling/registration/surface_alignment.h"
@@ -184,13 +185,7 @@ PoseEdge edgeOfSurfaces(const SurfaceLink& link, const std::vector<rgbd::Keyfram
     for (int u = 0; u < frame.depth_m.cols; u += DEPTH_STEP_PX)
       if (frame.depthAt_m(u, v) > 0)
         depths_m.push_back(frame.depthAt_m(u, v));
-  double depth_m = 1;
-  if (!depths_m.empty())
-  {
-    const auto middle = depths_m.begin() + static_cast<std::ptrdiff_t>(depths_m.size() / 2);
-    std::nth_element(depths_m.begin(), middle, depths_m.end());
-    depth_m = *middle;
-  }
+  const double depth_m = depths_m.empty() ? 1 : base::median(&depths_m);
   PoseEdge edge;
   edge.a = link.a;
   edge.b = link.b;

@@ -9,6 +9,8 @@
 
 #include <Eigen/Dense>
 
+#include "object_modelling/base/statistics.h"
+
 namespace object_modelling::calibration
 {
 namespace
@@ -109,9 +111,7 @@ std::vector<NoiseBin> binned(const std::vector<WallBlock>& blocks, int min_block
       bin.theta_rad += block->theta_rad / static_cast<double>(members.size());
       sigmas_m.push_back(block->sigma_m);
     }
-    const auto middle = sigmas_m.begin() + static_cast<std::ptrdiff_t>(sigmas_m.size() / 2);
-    std::nth_element(sigmas_m.begin(), middle, sigmas_m.end());
-    bin.sigma_m = *middle;
+    bin.sigma_m = base::median(&sigmas_m);
     bin.block_count = static_cast<int>(members.size());
     bins.push_back(bin);
   }

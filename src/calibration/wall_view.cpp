@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <opencv2/imgproc.hpp>
 
+#include "object_modelling/base/statistics.h"
 #include "object_modelling/segmentation/scene_segmenter.h"
 
 namespace object_modelling::calibration
@@ -41,13 +42,6 @@ cv::Mat square(int size_px)
   return cv::getStructuringElement(cv::MORPH_RECT, { size_px, size_px });
 }
 
-double medianOf(std::vector<double>* values)
-{
-  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
-  std::nth_element(values->begin(), middle, values->end());
-  return *middle;
-}
-
 /// Least squares on the relative error of inverse depth, pixels beyond the clip left out and taken in again as the
 /// plane settles.
 bool fitInversePlane(const std::vector<Pixel>& pixels, WallView* view)
@@ -57,7 +51,7 @@ bool fitInversePlane(const std::vector<Pixel>& pixels, WallView* view)
   {
     for (std::size_t i = 0; i < pixels.size(); ++i)
       sizes_m[i] = std::abs(pixels[i].z_m - view->depthAt_m(pixels[i].x, pixels[i].y));
-    view->noise_m = 1.4826 * medianOf(&sizes_m);
+    view->noise_m = 1.4826 * base::median(&sizes_m);
     const double gate_m = CLIP_SIGMAS * view->noise_m;
     Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();

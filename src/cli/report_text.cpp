@@ -5,6 +5,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include "object_modelling/base/statistics.h"
+
 namespace object_modelling::cli
 {
 namespace
@@ -33,15 +35,6 @@ double rmseOf(const std::vector<bundle_adjustment::KeyframeResidual>& residuals,
 }
 }  // namespace
 
-double quantile(std::vector<double> values, double share)
-{
-  if (values.empty())
-    return 0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 nlohmann::json toJson(const base::Status& status)
 {
   return { { "code", static_cast<int>(status.code) }, { "message", status.message } };
@@ -57,8 +50,8 @@ nlohmann::json toJson(const pipeline::RecordReport& report)
            { "lost_count", report.lost_count },
            { "relocalised_count", report.relocalised_count },
            { "keyframe_count", report.keyframe_count },
-           { "track_median_ms", quantile(report.track_ms, 0.5) },
-           { "track_p95_ms", quantile(report.track_ms, 0.95) },
+           { "track_median_ms", base::quantile(report.track_ms, 0.5) },
+           { "track_p95_ms", base::quantile(report.track_ms, 0.95) },
            { "first_problem", report.first_problem } };
 }
 
@@ -125,8 +118,8 @@ std::string toText(const pipeline::RecordReport& report)
   std::ostringstream out = fixedText(1);
   out << "tracked   " << report.tracked_count << " of " << report.frame_count << " frames ("
       << 100 * report.trackedRatio() << " %), " << report.keyframe_count << " keyframes, lost " << report.lost_count
-      << " times, relocalised " << report.relocalised_count << "; " << quantile(report.track_ms, 0.5)
-      << " ms per frame median, " << quantile(report.track_ms, 0.95) << " ms p95\n";
+      << " times, relocalised " << report.relocalised_count << "; " << base::quantile(report.track_ms, 0.5)
+      << " ms per frame median, " << base::quantile(report.track_ms, 0.95) << " ms p95\n";
   if (!report.first_problem.empty())
     out << "          first problem: " << report.first_problem << "\n";
   return out.str();

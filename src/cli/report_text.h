@@ -31,7 +31,4 @@ std::string toText(const pipeline::SegmentReport& report);
 std::string toText(const alignment::AlignmentResult& result);
 std::string toText(const pipeline::BuildReport& report);
 
-/// Value below which `share` in [0, 1] of the values lie; 0 for none.
-double quantile(std::vector<double> values, double share);
-
 }  // namespace object_modelling::cli

@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <opencv2/imgproc.hpp>
 
+#include "object_modelling/base/statistics.h"
 #include "object_modelling/base/status.h"
 #include "object_modelling/geometry/convex_hull.h"
 
@@ -122,12 +123,10 @@ std::vector<Eigen::Vector3f> withoutStrays(const std::vector<Eigen::Vector3f>& p
   std::vector<double> distances;
   for (const Eigen::Vector3f& p : points)
     distances.push_back((p.cast<double>() - mean).dot(information * (p.cast<double>() - mean)));
-  std::vector<double> sorted = distances;
-  const auto limit = sorted.begin() + static_cast<std::ptrdiff_t>((1 - share) * (points.size() - 1));
-  std::nth_element(sorted.begin(), limit, sorted.end());
+  const double limit = base::quantile(distances, 1 - share);
   std::vector<Eigen::Vector3f> kept;
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (distances[i] <= *limit)
+    if (distances[i] <= limit)
       kept.push_back(points[i]);
   return kept;
 }

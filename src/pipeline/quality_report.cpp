@@ -10,6 +10,7 @@
 #include <opencv2/core/version.hpp>
 
 #include "coverage.h"
+#include "object_modelling/base/statistics.h"
 #include "refinement_report.h"
 
 namespace object_modelling::pipeline
@@ -29,21 +30,12 @@ void begin(YAML::Emitter& out, const std::string& key)
   out << YAML::Key << key << YAML::Value << YAML::BeginMap;
 }
 
-double quantile(std::vector<float> values, double share)
-{
-  if (values.empty())
-    return 0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 void emitSigma(YAML::Emitter& out, const std::vector<float>& sigmas_m)
 {
   double sum_m = 0;
   for (const float sigma_m : sigmas_m)
     sum_m += sigma_m;
-  const double p99_m = quantile(sigmas_m, 0.99);
+  const double p99_m = base::quantile(sigmas_m, 0.99);
   const double width_m = p99_m > 0 ? p99_m / (SIGMA_BINS - 1) : 1e-4;
   std::vector<int> counts(SIGMA_BINS, 0);
   for (const float sigma_m : sigmas_m)
@@ -51,8 +43,8 @@ void emitSigma(YAML::Emitter& out, const std::vector<float>& sigmas_m)
       ++counts[static_cast<std::size_t>(std::clamp(sigma_m / width_m, 0.0, SIGMA_BINS - 1.0))];
   begin(out, "sigma");
   put(out, "mean_m", sigmas_m.empty() ? 0 : sum_m / static_cast<double>(sigmas_m.size()));
-  put(out, "median_m", quantile(sigmas_m, 0.5));
-  put(out, "p95_m", quantile(sigmas_m, 0.95));
+  put(out, "median_m", base::quantile(sigmas_m, 0.5));
+  put(out, "p95_m", base::quantile(sigmas_m, 0.95));
   put(out, "histogram_bin_width_m", width_m);
   out << YAML::Key << "histogram_counts" << YAML::Value << YAML::Flow << counts;
   out << YAML::EndMap;

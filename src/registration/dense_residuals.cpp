@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "object_modelling/base/statistics.h"
+
 namespace object_modelling::registration
 {
 namespace
@@ -59,11 +61,7 @@ void sampleIntensity(const cv::Mat& gray, const SubPixel& at, float* value, floa
 /// Standard deviation from the median absolute value.
 float robustScale(std::vector<float>* sizes)
 {
-  if (sizes->empty())
-    return 0;
-  const auto middle = sizes->begin() + static_cast<std::ptrdiff_t>(sizes->size() / 2);
-  std::nth_element(sizes->begin(), middle, sizes->end());
-  return 1.4826F * *middle;
+  return 1.4826F * base::median(sizes);
 }
 
 /// Brings the exposure of the frame to that of the reference: equal mean and spread over what both see. Gives the

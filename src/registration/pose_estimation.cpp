@@ -7,6 +7,8 @@
 
 #include <Eigen/Dense>
 
+#include "object_modelling/base/statistics.h"
+
 namespace object_modelling::registration
 {
 namespace
@@ -65,10 +67,8 @@ double robustSigma_px(const std::vector<Correspondence>& correspondences, const 
   }
   if (errors_px.empty())
     return options.pixel_sigma_px;
-  const auto middle = errors_px.begin() + static_cast<std::ptrdiff_t>(errors_px.size() / 2);
-  std::nth_element(errors_px.begin(), middle, errors_px.end());
   // The median of a two-dimensional error is 1.18 standard deviations of one coordinate.
-  return *middle / 1.18;
+  return base::median(&errors_px) / 1.18;
 }
 
 geometry::NormalEquations linearise(const std::vector<Correspondence>& correspondences,

@@ -6,6 +6,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "object_modelling/base/statistics.h"
+
 namespace object_modelling::segmentation
 {
 namespace
@@ -48,9 +50,8 @@ void fillLowHoles(const rgbd::Frame& frame, const geometry::Plane& plane_camera,
   {
     if (hole.heights_m.size() < MIN_HOLE_PX)
       continue;
-    const auto middle = hole.heights_m.begin() + static_cast<std::ptrdiff_t>(hole.heights_m.size() / 2);
-    std::nth_element(hole.heights_m.begin(), middle, hole.heights_m.end());
-    hole.low_object = *middle > min_height_m / 2 && *middle <= max_height_m;
+    const float median_height_m = base::median(&hole.heights_m);
+    hole.low_object = median_height_m > min_height_m / 2 && median_height_m <= max_height_m;
   }
   for (int v = 0; v < rect.height; ++v)
     for (int u = 0; u < rect.width; ++u)

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "exposure.h"
+#include "object_modelling/base/statistics.h"
 #include "object_modelling/geometry/image_sampling.h"
 #include "object_modelling/mesh/mesh_topology.h"
 
@@ -82,8 +83,7 @@ void outvoteAt(const std::vector<Eigen::Vector3f>& colors, const std::vector<flo
     std::vector<float> values;
     for (const Eigen::Vector3f& color : colors)
       values.push_back(color[c]);
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-    common[c] = values[values.size() / 2];
+    common[c] = base::median(&values);
   }
   std::vector<float> agreement(seen->size(), 1);
   for (int iteration = 0; iteration < AGREEMENT_ITERATIONS; ++iteration)

@@ -7,6 +7,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "object_modelling/base/statistics.h"
 #include "object_modelling/rgbd/surface_fit.h"
 
 namespace object_modelling::tracking
@@ -45,9 +46,7 @@ double medianDepth_m(const std::vector<Sighting>& sightings)
   std::vector<double> depths_m;
   for (const Sighting& sighting : sightings)
     depths_m.push_back(sighting.p_keyframe.z());
-  std::nth_element(depths_m.begin(), depths_m.begin() + static_cast<std::ptrdiff_t>(depths_m.size() / 2),
-                   depths_m.end());
-  return depths_m[depths_m.size() / 2];
+  return base::median(&depths_m);
 }
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "keyframe_maker.h"
+#include "object_modelling/base/statistics.h"
 #include "object_modelling/base/status.h"
 #include "object_modelling/rgbd/depth_in_time.h"
 #include "object_modelling/rgbd/depth_sampling.h"
@@ -258,11 +259,7 @@ void CameraTracker::Implementation::resume(const std::vector<rgbd::Keyframe>& ke
       known.sightings.push_back({ observation.landmark_id, observation.pixel, surface->p, surface->n });
     }
     if (!depths_m.empty())
-    {
-      std::nth_element(depths_m.begin(), depths_m.begin() + static_cast<std::ptrdiff_t>(depths_m.size() / 2),
-                       depths_m.end());
-      known.median_depth_m = depths_m[depths_m.size() / 2];
-    }
+      known.median_depth_m = base::median(&depths_m);
     next_keyframe_id_ = std::max(next_keyframe_id_, keyframe.id + 1);
     camera_ = keyframe.frame.camera;
     map_.add(std::move(known));

@@ -13,6 +13,17 @@ TEST(Median, IsTheMiddleWhateverTheOrder)
   EXPECT_EQ(median(&none), 0);
 }
 
+TEST(Quantile, IsTheLowerValueAtItsPlace)
+{
+  const std::vector<float> values = { 30, 10, 50, 20, 40 };
+  EXPECT_EQ(quantile(values, 0), 10);
+  EXPECT_EQ(quantile(values, 0.49), 20);
+  EXPECT_EQ(quantile(values, 0.5), 30);
+  EXPECT_EQ(quantile(values, 0.99), 40);
+  EXPECT_EQ(quantile(values, 1), 50);
+  EXPECT_EQ(quantile(std::vector<double>{}, 0.5), 0);
+}
+
 TEST(RobustDeviation, IsNotMovedByAnOutlier)
 {
   EXPECT_NEAR(robustDeviation<double>({ -1, 1, -1, 1, 0, 1000, -1000 }), 1.4826, 1e-9);
