@@ -4,8 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include <nanoflann.hpp>
-
+#include "object_modelling/base/statistics.h"
 #include "object_modelling/geometry/transform.h"
 
 namespace object_modelling::evaluation
@@ -20,53 +19,15 @@ std::vector<Eigen::Vector3d> thinned(const std::vector<Eigen::Vector3d>& points,
   return kept;
 }
 
-class SampleTree::Implementation
-{
-public:
-  explicit Implementation(const std::vector<Eigen::Vector3d>& samples)
-      : samples_(samples), tree_(3, *this, nanoflann::KDTreeSingleIndexAdaptorParams(10))
-  {
-    tree_.buildIndex();
-  }
-
-  // The interface that nanoflann asks for.
-  std::size_t kdtree_get_point_count() const { return samples_.size(); }
-  double kdtree_get_pt(std::size_t index, std::size_t axis) const
-  {
-    return samples_[index][static_cast<Eigen::Index>(axis)];
-  }
-  template <typename Box>
-  bool kdtree_get_bbox(Box&) const
-  {
-    return false;
-  }
-
-  std::size_t nearest(const Eigen::Vector3d& query, double* distance_m) const
-  {
-    std::size_t index = 0;
-    double squared = 0;
-    tree_.knnSearch(query.data(), 1, &index, &squared);
-    *distance_m = std::sqrt(squared);
-    return index;
-  }
-
-private:
-  using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Implementation>, Implementation,
-                                                   3, std::size_t>;
-  const std::vector<Eigen::Vector3d>& samples_;
-  Tree tree_;
-};
-
-SampleTree::SampleTree(const std::vector<Eigen::Vector3d>& samples)
-    : samples_(samples), implementation_(std::make_unique<Implementation>(samples_))
+SampleTree::SampleTree(const std::vector<Eigen::Vector3d>& samples) : samples_(samples), index_(samples_)
 {
 }
 
-SampleTree::~SampleTree() = default;
-
 std::size_t SampleTree::nearest(const Eigen::Vector3d& query, double* distance_m) const
 {
-  return implementation_->nearest(query, distance_m);
+  const auto found = index_.nearest(query);
+  *distance_m = std::sqrt(found.squared_distance);
+  return found.index;
 }
 
 namespace
@@ -130,10 +91,8 @@ double fitToSurface(const std::vector<Eigen::Vector3d>& points, const mesh::Refe
     center += moved[i] / static_cast<double>(points.size());
   }
   std::vector<double> sorted = distances_m;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
   // Tukey's biweight with 95 % efficiency for normal noise, whose sigma is 1.48 medians of the absolute values.
-  const double width_m = 4.685 * 1.4826 * *middle;
+  const double width_m = 4.685 * 1.4826 * base::median(&sorted);
   const double smallest_m = 1e-12 * surface.diagonal_m();
 
   using Matrix6d = Eigen::Matrix<double, 6, 6>;

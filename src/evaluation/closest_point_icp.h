@@ -1,8 +1,8 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
+#include "object_modelling/geometry/point_index.h"
 #include "object_modelling/mesh/reference_surface.h"
 
 namespace object_modelling::evaluation
@@ -15,15 +15,13 @@ class SampleTree
 {
 public:
   explicit SampleTree(const std::vector<Eigen::Vector3d>& samples);
-  ~SampleTree();
   /// Index of the nearest sample and the distance to it.
   std::size_t nearest(const Eigen::Vector3d& query, double* distance_m) const;
   const Eigen::Vector3d& sample(std::size_t index) const { return samples_[index]; }
 
 private:
-  class Implementation;
   std::vector<Eigen::Vector3d> samples_;
-  std::unique_ptr<Implementation> implementation_;
+  geometry::PointIndexOf<double> index_;
 };
 
 struct Placement

@@ -7,10 +7,11 @@
 
 namespace object_modelling::geometry
 {
-class PointIndex::Implementation
+template <typename Scalar>
+class PointIndexOf<Scalar>::Implementation
 {
 public:
-  explicit Implementation(const std::vector<Eigen::Vector3f>& points)
+  explicit Implementation(const std::vector<Point>& points)
       : points_(points), tree_(3, *this, nanoflann::KDTreeSingleIndexAdaptorParams(10))
   {
     tree_.buildIndex();
@@ -18,7 +19,7 @@ public:
 
   // The interface that nanoflann asks for.
   std::size_t kdtree_get_point_count() const { return points_.size(); }
-  float kdtree_get_pt(std::size_t index, std::size_t axis) const
+  Scalar kdtree_get_pt(std::size_t index, std::size_t axis) const
   {
     return points_[index][static_cast<Eigen::Index>(axis)];
   }
@@ -28,14 +29,14 @@ public:
     return false;
   }
 
-  std::size_t find(const Eigen::Vector3f& query, std::size_t count, std::uint32_t* indices, float* distances) const
+  std::size_t find(const Point& query, std::size_t count, std::uint32_t* indices, Scalar* distances) const
   {
     return tree_.knnSearch(query.data(), count, indices, distances);
   }
-  std::vector<std::uint32_t> findWithin(const Eigen::Vector3f& query, float radius) const
+  std::vector<std::uint32_t> findWithin(const Point& query, Scalar radius) const
   {
-    std::vector<std::pair<std::uint32_t, float>> found;
-    nanoflann::RadiusResultSet<float, std::uint32_t> result(radius * radius, found);
+    std::vector<std::pair<std::uint32_t, Scalar>> found;
+    nanoflann::RadiusResultSet<Scalar, std::uint32_t> result(radius * radius, found);
     tree_.findNeighbors(result, query.data(), {});
     std::vector<std::uint32_t> indices;
     indices.reserve(found.size());
@@ -46,32 +47,47 @@ public:
   }
 
 private:
-  using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Implementation>, Implementation,
+  using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<Scalar, Implementation>, Implementation,
                                                    3, std::uint32_t>;
-  const std::vector<Eigen::Vector3f>& points_;
+  const std::vector<Point>& points_;
   Tree tree_;
 };
 
-PointIndex::PointIndex(const std::vector<Eigen::Vector3f>& points) : implementation_(new Implementation(points))
+template <typename Scalar>
+PointIndexOf<Scalar>::PointIndexOf(const std::vector<Point>& points) : implementation_(new Implementation(points))
 {
 }
 
-PointIndex::~PointIndex() = default;
+template <typename Scalar>
+PointIndexOf<Scalar>::~PointIndexOf() = default;
 
-void PointIndex::nearest(const Eigen::Vector3f& query, std::size_t count, std::vector<Neighbour>* neighbours) const
+template <typename Scalar>
+typename PointIndexOf<Scalar>::Neighbour PointIndexOf<Scalar>::nearest(const Point& query) const
+{
+  Neighbour found;
+  implementation_->find(query, 1, &found.index, &found.squared_distance);
+  return found;
+}
+
+template <typename Scalar>
+void PointIndexOf<Scalar>::nearest(const Point& query, std::size_t count, std::vector<Neighbour>* neighbours) const
 {
   constexpr std::size_t MAX_COUNT = 32;
   std::uint32_t indices[MAX_COUNT];
-  float distances[MAX_COUNT];
+  Scalar distances[MAX_COUNT];
   const std::size_t found = implementation_->find(query, std::min(count, MAX_COUNT), indices, distances);
   neighbours->clear();
   for (std::size_t i = 0; i < found; ++i)
     neighbours->push_back({ indices[i], distances[i] });
 }
 
-std::vector<std::uint32_t> PointIndex::within(const Eigen::Vector3f& query, double radius_m) const
+template <typename Scalar>
+std::vector<std::uint32_t> PointIndexOf<Scalar>::within(const Point& query, double radius_m) const
 {
-  return implementation_->findWithin(query, static_cast<float>(radius_m));
+  return implementation_->findWithin(query, static_cast<Scalar>(radius_m));
 }
+
+template class PointIndexOf<float>;
+template class PointIndexOf<double>;
 
 }  // namespace object_modelling::geometry

@@ -9,25 +9,32 @@
 namespace object_modelling::geometry
 {
 /// Nearest neighbours among fixed points, which must outlive the index. Queries are safe from several threads.
-class PointIndex
+/// `Scalar`: float or double.
+template <typename Scalar>
+class PointIndexOf
 {
 public:
-  explicit PointIndex(const std::vector<Eigen::Vector3f>& points);
-  ~PointIndex();
+  using Point = Eigen::Matrix<Scalar, 3, 1>;
+  explicit PointIndexOf(const std::vector<Point>& points);
+  ~PointIndexOf();
 
   struct Neighbour
   {
     std::uint32_t index = 0;
-    float squared_distance = 0;
+    Scalar squared_distance = 0;
   };
-  /// The `count` nearest, nearest first; fewer if there are fewer points.
-  void nearest(const Eigen::Vector3f& query, std::size_t count, std::vector<Neighbour>* neighbours) const;
+  /// There must be points.
+  Neighbour nearest(const Point& query) const;
+  /// The `count` nearest, at most 32, nearest first; fewer if there are fewer points.
+  void nearest(const Point& query, std::size_t count, std::vector<Neighbour>* neighbours) const;
   /// Indices of the points nearer than `radius_m`, ascending.
-  std::vector<std::uint32_t> within(const Eigen::Vector3f& query, double radius_m) const;
+  std::vector<std::uint32_t> within(const Point& query, double radius_m) const;
 
 private:
   class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
+
+using PointIndex = PointIndexOf<float>;
 
 }  // namespace object_modelling::geometry
