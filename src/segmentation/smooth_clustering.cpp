@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "noise_table.h"
+#include "object_modelling/base/disjoint_sets.h"
 
 namespace object_modelling::segmentation
 {
@@ -27,32 +28,6 @@ bool flying(const cv::Mat& depth_m, int u, int v, float ratio)
       neighbours += connected(z, depth_m.at<float>(y, x), ratio);
   return neighbours - 1 < MIN_NEIGHBOURS;  // the pixel has counted itself
 }
-
-class UnionFind
-{
-public:
-  int add()
-  {
-    parent_.push_back(static_cast<int>(parent_.size()));
-    return parent_.back();
-  }
-  int find(int i)
-  {
-    while (parent_[i] != i)
-      i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int i, int j)
-  {
-    i = find(i);
-    j = find(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-  int size() const { return static_cast<int>(parent_.size()); }
-
-private:
-  std::vector<int> parent_{ 0 };  // 0 is the background
-};
 
 /// Labels of the HIGH pixels spread over LOW ones, a few pixels far: the last millimetres above the support.
 void growFeet(const cv::Mat& depth_m, const cv::Mat& foreground, float ratio, cv::Mat* labels)
@@ -144,7 +119,7 @@ Clusters clusterSmooth(const rgbd::Frame& frame, const cv::Mat& foreground, doub
   result.labels = cv::Mat::zeros(foreground.size(), CV_32SC1);
   cv::Mat& labels = result.labels;
   const cv::Mat& depth_m = frame.depth_m;
-  UnionFind sets;
+  base::DisjointSets sets(1);  // 0 is the background
 
   for (int v = 0; v < foreground.rows; ++v)
   {
@@ -163,7 +138,7 @@ Clusters clusterSmooth(const rgbd::Frame& frame, const cv::Mat& foreground, doub
         if (label == 0)
           label = other;
         else
-          sets.join(label, other);
+          sets.unite(label, other);
       };
       // The nearest pixel with depth to the left and above, and the diagonal neighbours.
       for (int gap = 1; gap <= MAX_GAP_PX + 1 && u - gap >= 0; ++gap)
@@ -182,7 +157,7 @@ Clusters clusterSmooth(const rgbd::Frame& frame, const cv::Mat& foreground, doub
         meet(u - 1, v - 1);
       if (v > 0 && u + 1 < foreground.cols)
         meet(u + 1, v - 1);
-      labels.at<int>(v, u) = label != 0 ? label : sets.add();
+      labels.at<int>(v, u) = label != 0 ? label : static_cast<int>(sets.add());
     }
   }
 
@@ -200,7 +175,7 @@ Clusters clusterSmooth(const rgbd::Frame& frame, const cv::Mat& foreground, doub
     {
       if (row[u] == 0)
         continue;
-      row[u] = sets.find(row[u]);
+      row[u] = static_cast<int>(sets.find(row[u]));
       Extent& extent = extents[row[u]];
       if (extent.count++ == 0)
         extent = { 1, u, u, v, v };
@@ -209,7 +184,7 @@ Clusters clusterSmooth(const rgbd::Frame& frame, const cv::Mat& foreground, doub
       extent.bottom = v;
     }
   }
-  for (int label = 1; label < sets.size(); ++label)
+  for (int label = 1; label < static_cast<int>(sets.size()); ++label)
   {
     const Extent& e = extents[label];
     if (e.count >= min_pixels)

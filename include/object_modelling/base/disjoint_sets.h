@@ -12,6 +12,13 @@ class DisjointSets
 {
 public:
   explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  /// One more set, of itself.
+  std::uint32_t add()
+  {
+    parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
+    return parent_.back();
+  }
+  std::size_t size() const { return parent_.size(); }
   std::uint32_t find(std::uint32_t i)
   {
     while (parent_[i] != i)
