@@ -5,6 +5,9 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "object_modelling/geometry/image_sampling.h"
+#include "object_modelling/rgbd/visibility.h"
+
 namespace object_modelling::fusion
 {
 namespace
@@ -20,20 +23,6 @@ struct Sample
   float weight = 0;
   Eigen::Vector3f rgb = Eigen::Vector3f::Zero();
 };
-
-Eigen::Vector3f bilinearRgb(const cv::Mat& bgr, float u, float v)
-{
-  const int x = std::clamp(static_cast<int>(std::floor(u)), 0, bgr.cols - 2);
-  const int y = std::clamp(static_cast<int>(std::floor(v)), 0, bgr.rows - 2);
-  const float a = std::clamp(u - x, 0.f, 1.f), b = std::clamp(v - y, 0.f, 1.f);
-  Eigen::Vector3f rgb;
-  for (int c = 0; c < 3; ++c)
-  {
-    const auto at = [&](int row, int column) { return static_cast<float>(bgr.at<cv::Vec3b>(row, column)[2 - c]); };
-    rgb[c] = (1 - b) * ((1 - a) * at(y, x) + a * at(y, x + 1)) + b * ((1 - a) * at(y + 1, x) + a * at(y + 1, x + 1));
-  }
-  return rgb;
-}
 
 std::vector<Sample> bestSamples(const std::vector<View>& views, const std::vector<cv::Mat>& rim_distances_px,
                                 const Surfel& surfel, double consistency_sigmas, const Eigen::Vector2f& color_offset_px)
@@ -54,13 +43,15 @@ std::vector<Sample> bestSamples(const std::vector<View>& views, const std::vecto
     const double tolerance_m =
         consistency_sigmas * std::hypot(surfel.sigma_m, view.frame->noise_model.axialSigma_m(at.z_m, 0));
     const float rim_px = rim_distances_px[i].at<float>(at.row, at.column);
-    if (!(std::abs(view.frame->depth_m.at<float>(at.row, at.column) - at.z_m) <= tolerance_m) || rim_px <= 0)
+    const double measured_m = view.frame->depth_m.at<float>(at.row, at.column);
+    if (rgbd::visibilityOf<double>(at.z_m, measured_m, tolerance_m) != rgbd::Visibility::ON || rim_px <= 0)
       continue;
     Sample sample;
     sample.view = i;
     sample.weight =
         std::pow(std::max(cosine, MIN_COSINE), 2.f) / (at.z_m * at.z_m) * std::min(1.f, rim_px / FULL_RIM_DISTANCE);
-    sample.rgb = bilinearRgb(view.frame->color_bgr, at.u_px + color_offset_px.x(), at.v_px + color_offset_px.y());
+    sample.rgb =
+        geometry::colorAt(view.frame->color_bgr, Eigen::Vector2f(at.u_px, at.v_px) + color_offset_px).reverse();
     samples.push_back(sample);
   }
   std::stable_sort(samples.begin(), samples.end(),

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "object_modelling/rgbd/visibility.h"
+
 namespace object_modelling::fusion
 {
 namespace
@@ -12,8 +14,8 @@ bool seesThrough(const View& view, const Eigen::Vector3f& point, float tolerance
   const Projection at = project(view, point);
   if (!at.inside)
     return false;
-  const float nearest_m = view.nearest_depth_m.at<float>(at.row, at.column);
-  return std::isfinite(nearest_m) && nearest_m > at.z_m + tolerance_m;
+  return rgbd::visibilityOf(at.z_m, view.nearest_depth_m.at<float>(at.row, at.column), tolerance_m) ==
+         rgbd::Visibility::IN_FRONT;
 }
 
 }  // namespace
@@ -44,7 +46,7 @@ Votes castVotes(const std::vector<View>& views, const SurfacePoint& surface, dou
     }
     const float depth_m = view.frame->depth_m.at<float>(at.row, at.column);
     const bool facing = surface.normal.dot(view.p_session_camera - surface.point) > 0;
-    if (!facing || !(std::abs(depth_m - at.z_m) <= tolerance_m))
+    if (!facing || rgbd::visibilityOf(at.z_m, depth_m, tolerance_m) != rgbd::Visibility::ON)
       continue;
     ++votes.same;
     if (!view.frame->object_mask.empty())

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "object_modelling/rgbd/visibility.h"
+
 namespace object_modelling::pipeline
 {
 namespace
@@ -16,7 +18,8 @@ bool sees(const rgbd::Keyframe& view, const Eigen::Vector3d& p_camera, const Eig
   if (!view.frame.camera.contains(pixel, 0.5))
     return false;
   const auto u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
-  return std::abs(view.frame.depthAt_m(u, v) - p_camera.z()) < DEPTH_TOLERANCE_M;  // false for NaN
+  return rgbd::visibilityOf<double>(p_camera.z(), view.frame.depthAt_m(u, v), DEPTH_TOLERANCE_M) ==
+         rgbd::Visibility::ON;
 }
 
 void countDirections(const std::vector<rgbd::Keyframe>& views, Coverage* coverage)

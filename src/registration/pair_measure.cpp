@@ -5,6 +5,7 @@
 
 #include "color_comparison.h"
 #include "object_modelling/registration/support_contact.h"
+#include "object_modelling/rgbd/visibility.h"
 
 namespace object_modelling::registration
 {
@@ -53,12 +54,10 @@ void lookAt(const std::vector<SpaceView>& views, const Eigen::Vector3f& p, Meeti
     const int v = cvRound(static_cast<float>(view.camera.fy) * q.y() / q.z() + static_cast<float>(view.camera.cy));
     if (u < 0 || v < 0 || u >= view.least_depth_m.cols || v >= view.least_depth_m.rows)
       continue;
-    const float measured_m = view.least_depth_m.at<float>(v, u);
-    if (measured_m <= 0)
-      continue;
     const float margin_m = SPACE_SIGMAS * static_cast<float>(view.axial_sigma_m) + SPACE_MARGIN_M;
-    front += q.z() < measured_m - margin_m;
-    upheld += std::abs(q.z() - measured_m) <= margin_m;
+    const rgbd::Visibility seen = rgbd::visibilityOf(q.z(), view.least_depth_m.at<float>(v, u), margin_m);
+    front += seen == rgbd::Visibility::IN_FRONT;
+    upheld += seen == rgbd::Visibility::ON;
   }
   meeting->front += front > upheld && front >= 2;
   meeting->upheld += upheld >= front && upheld > 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "noise_table.h"
+#include "object_modelling/rgbd/visibility.h"
 
 namespace object_modelling::segmentation
 {
@@ -85,12 +86,10 @@ void ObjectVolume::removeContradicted(const rgbd::Keyframe& keyframe, const cv::
     if (!frame.camera.contains(pixel))
       continue;
     const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
-    const double behind_m = frame.depthAt_m(u, v) - p_camera.z();
     const double tolerance_m = 2 * voxel_size_m_ + 3 * noise->sigma_m(static_cast<float>(p_camera.z()), 0.7F);
-    const bool seen_through = behind_m > tolerance_m;
-    const bool seen_as_other =
-        !others.empty() && others.at<std::uint8_t>(v, u) != 0 && std::abs(behind_m) <= tolerance_m;
-    voxel.votes_against += seen_as_other ? NEIGHBOUR_VOTES : seen_through ? 1 : 0;
+    const rgbd::Visibility seen = rgbd::visibilityOf<double>(p_camera.z(), frame.depthAt_m(u, v), tolerance_m);
+    const bool seen_as_other = seen == rgbd::Visibility::ON && !others.empty() && others.at<std::uint8_t>(v, u) != 0;
+    voxel.votes_against += seen_as_other ? NEIGHBOUR_VOTES : seen == rgbd::Visibility::IN_FRONT ? 1 : 0;
   }
 }
 

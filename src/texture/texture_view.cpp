@@ -9,6 +9,7 @@
 #include "object_modelling/base/status.h"
 #include "object_modelling/mesh/mesh_renderer.h"
 #include "object_modelling/rgbd/sensor_noise_model.h"
+#include "object_modelling/rgbd/visibility.h"
 
 namespace object_modelling::texture
 {
@@ -130,10 +131,10 @@ Sighting sight(const TextureView& view, const Eigen::Vector3f& p_mesh, const Eig
   {
     const float tolerance_m =
         DEPTH_TOLERANCE_M + 3 * static_cast<float>(view.frame->noise_model.axialSigma_m(z_m, 0)) + 2 * slope_m_per_px;
-    const float measured_m = view.frame->depthAt_m(u, v);
-    const bool behind = measured_m > z_m + tolerance_m;  // false without depth
-    const bool unknown = std::isnan(measured_m) && view.frame->object_mask.empty();
-    if (view.nearest_depth_m.at<float>(v, u) < z_m - tolerance_m || behind || unknown)
+    const rgbd::Visibility seen = rgbd::visibilityOf(z_m, view.frame->depthAt_m(u, v), tolerance_m);
+    const rgbd::Visibility round = rgbd::visibilityOf(z_m, view.nearest_depth_m.at<float>(v, u), tolerance_m);
+    const bool unknown = seen == rgbd::Visibility::UNKNOWN && view.frame->object_mask.empty();
+    if (round == rgbd::Visibility::BEHIND || seen == rgbd::Visibility::IN_FRONT || unknown)
       return result;
   }
   const float rim_fade = std::min(1.f, (rim_px - MIN_RIM_PX + 0.25f) / (FULL_RIM_PX - MIN_RIM_PX));
