@@ -32,6 +32,22 @@ class LayeringTest(unittest.TestCase):
                                      f"{path} includes {include}: {parts[1]} is above {library}")
         self.assertGreater(seen, 50, "the scan found next to no includes: is it looking in the right place?")
 
+    def test_what_consumes_models_needs_neither_tracker_nor_alignment(self):
+        order = source_tree.library_order()
+        used = {library: set() for library in order}
+        for path in source_tree.cpp_files("include", "src"):
+            library = source_tree.library_of(path)
+            for include in source_tree.includes(path) if library in order else ():
+                parts = include.split("/")
+                if parts[0] == "object_modelling" and len(parts) == 3:
+                    used[library].add(parts[1])
+        for foundation in ("mesh", "features", "registration", "database"):
+            reached, front = set(), {foundation}
+            while front:
+                reached |= front
+                front = set().union(*(used[library] for library in front)) - reached
+            self.assertFalse(reached & {"tracking", "alignment", "pipeline"}, f"{foundation} reaches {sorted(reached)}")
+
     def test_no_ros_in_the_libraries(self):
         order = source_tree.library_order()
         for path in source_tree.cpp_files("include", "src"):
