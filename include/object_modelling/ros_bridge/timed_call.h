@@ -32,11 +32,13 @@ void throwIfShuttingDown();
 /// Returns once the service is offered, TIMEOUT otherwise.
 void waitForService(const std::string& resolved_name, double wait_s);
 
-/// Waits for the answer of a persistent connection. False: the connection is broken.
+/// Waits for the answer of a persistent connection. False: the connection is broken. No call begins once the node is
+/// being shut down: roscpp would block it on what its shutdown holds while that waits for the caller's callback.
 template <typename Service>
 bool answered(const std::string& resolved_name, ros::ServiceClient client, double answer_s, Service& service)
 {
   constexpr std::chrono::milliseconds POLL(50);
+  throwIfShuttingDown();
   std::future<bool> done = std::async(std::launch::async, [&client, &service] { return client.call(service); });
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(answer_s);
   while (done.wait_for(POLL) != std::future_status::ready)
@@ -58,6 +60,7 @@ template <typename Service>
 ros::ServiceClient connected(ros::NodeHandle node, const std::string& resolved_name, double wait_s)
 {
   waitForService(resolved_name, wait_s);
+  throwIfShuttingDown();
   return node.serviceClient<Service>(resolved_name, true);
 }
 

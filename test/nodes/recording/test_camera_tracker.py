@@ -3,6 +3,7 @@
 side by side."""
 import os
 import sys
+import threading
 import unittest
 
 import numpy as np
@@ -313,6 +314,47 @@ class ParametersTest(unittest.TestCase):
         self.assertEqual(code, 1)
         for text in ("tracker/max_featuers", "tracker/seed", "moon", "input_timeout_s"):
             self.assertIn(text, output)
+
+
+class ShutdownTest(unittest.TestCase):
+    def test_ends_while_stop_waits_for_keyframes_that_never_arrive(self):
+        asked, created = [], []
+
+        def get_session(request):
+            asked.append(request.session_id)
+            return srv.GetSessionResponse(status=Status(code=Status.OK if created else Status.NOT_FOUND))
+
+        def create_session(request):
+            created.append(request.session)
+            return srv.CreateSessionResponse()
+
+        services = [rospy.Service("ending/keyframe_store/" + name, kind, answer) for name, kind, answer in (
+            ("get_session", srv.GetSession, get_session), ("create_session", srv.CreateSession, create_session),
+            ("list_sessions", srv.ListSessions, lambda _: srv.ListSessionsResponse()))]
+        subscriber = rospy.Subscriber("ending/camera_tracker/keyframe", Keyframe, lambda _: None)
+        process = NodeProcess("camera_tracker", "__name:=camera_tracker", "__ns:=ending")
+        camera, tracker = SyntheticCamera("ending"), Tracker("ending")
+        camera.wait_for_listeners()
+        wait_until(lambda: tracker.start(session_id="ends").status.code == Status.OK, "a tracker that is heard")
+        self.assertIn(camera.track(0).status, TRACKED)
+        before = len(asked)
+
+        def stop():
+            try:
+                tracker.stop()
+            except rospy.ServiceException:
+                pass  # the connection closed first
+
+        caller = threading.Thread(target=stop)
+        caller.start()
+        wait_until(lambda: len(asked) > before + 3, "the tracker to wait for its keyframe")
+        code, output = process.interrupt(5)
+        self.assertEqual(code, 0, output)
+        caller.join(5)
+        self.assertFalse(caller.is_alive())
+        subscriber.unregister()
+        for service in services:
+            service.shutdown()
 
 
 if __name__ == "__main__":
