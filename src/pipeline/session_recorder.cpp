@@ -72,11 +72,12 @@ void SessionRecorder::resume(const std::string& session_id)
   requireIdle();
   if (sink_ == nullptr)
     throw Error(StatusCode::INVALID_ARGUMENT, "session '" + session_id + "' cannot be resumed where none is kept");
-  const std::vector<rgbd::Keyframe> keyframes = sink_->reopen(session_id, options_.noise_model);
+  const std::vector<rgbd::Keyframe> keyframes = sink_->stored(session_id, options_.noise_model);
   keyframes::Session session;
   session.id = session_id;
   begin(session);
   tracker_.resume(keyframes);
+  sink_->reopen(session_id);  // last: a tracker that refuses leaves the session as it was
   counts_.keyframe_count = static_cast<int>(keyframes.size());
   created_ = resumed_ = recording_ = true;
 }

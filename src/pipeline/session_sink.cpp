@@ -9,7 +9,7 @@ void StoreSink::create(const keyframes::Session& session)
   store_.createSession(session);
 }
 
-std::vector<rgbd::Keyframe> StoreSink::reopen(const std::string& session_id, const rgbd::SensorNoiseModel& noise_model)
+std::vector<rgbd::Keyframe> StoreSink::stored(const std::string& session_id, const rgbd::SensorNoiseModel& noise_model)
 {
   const keyframes::Session session = store_.session(session_id);
   if (session.calibration.noise_model != noise_model)
@@ -21,6 +21,11 @@ std::vector<rgbd::Keyframe> StoreSink::reopen(const std::string& session_id, con
   if (keyframes.empty())
     throw base::Error(base::StatusCode::NO_RESULT,
                       "session '" + session_id + "' has no keyframes to continue from; delete it and start anew");
+  return keyframes;
+}
+
+void StoreSink::reopen(const std::string& session_id)
+{
   // The keyframes to come are not refined and show no object yet.
   keyframes::SessionChange change;
   change.closed = false;
@@ -28,7 +33,6 @@ std::vector<rgbd::Keyframe> StoreSink::reopen(const std::string& session_id, con
   change.refinement_report = "";
   change.support_plane_session = std::optional<geometry::Plane>();
   store_.update(session_id, change);
-  return keyframes;
 }
 
 void StoreSink::add(const std::string& session_id, const rgbd::Keyframe& keyframe, const std::string&)

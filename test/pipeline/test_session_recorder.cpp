@@ -49,6 +49,20 @@ private:
   }
 };
 
+/// A store whose keyframes have lost their images.
+class ImagelessSink : public StoreSink
+{
+public:
+  using StoreSink::StoreSink;
+  std::vector<rgbd::Keyframe> stored(const std::string& session_id, const rgbd::SensorNoiseModel& noise_model) override
+  {
+    std::vector<rgbd::Keyframe> keyframes = StoreSink::stored(session_id, noise_model);
+    keyframes.front().frame.gray.release();
+    keyframes.front().frame.depth_m.release();
+    return keyframes;
+  }
+};
+
 SessionRecorderOptions onObject()
 {
   SessionRecorderOptions options;
@@ -225,7 +239,10 @@ TEST_F(Recorder, RefusesToResumeWhatItCannotContinue)
   EXPECT_EQ(statusOf([&] { with_other.resume("walk"); }).code, StatusCode::FAILED_PRECONDITION);
   SessionRecorder unkept({}, nullptr);
   EXPECT_EQ(statusOf([&] { unkept.resume("walk"); }).code, StatusCode::INVALID_ARGUMENT);
-  EXPECT_FALSE(recorder.recording() || with_other.recording() || unkept.recording());
+  ImagelessSink imageless(*store_);
+  SessionRecorder without_images({}, &imageless);
+  EXPECT_EQ(statusOf([&] { without_images.resume("walk"); }).code, StatusCode::BAD_INPUT);
+  EXPECT_FALSE(recorder.recording() || with_other.recording() || unkept.recording() || without_images.recording());
   EXPECT_EQ(fingerprint(*store_, "walk"), before);
 }
 

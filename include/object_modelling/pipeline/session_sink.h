@@ -14,10 +14,12 @@ public:
   virtual ~SessionSink() = default;
 
   virtual void create(const keyframes::Session& session) = 0;
-  /// Opens a stored session again and gives its keyframes; NO_RESULT if it has none, FAILED_PRECONDITION if it was
-  /// recorded with another noise model.
-  virtual std::vector<rgbd::Keyframe> reopen(const std::string& session_id,
+  /// The keyframes of a stored session that is to go on; NO_RESULT if it has none, FAILED_PRECONDITION if it was
+  /// recorded with another noise model. Changes nothing.
+  virtual std::vector<rgbd::Keyframe> stored(const std::string& session_id,
                                              const rgbd::SensorNoiseModel& noise_model) = 0;
+  /// Opens a stored session again: what was made of its keyframes so far does not hold for those to come.
+  virtual void reopen(const std::string& session_id) = 0;
   virtual void add(const std::string& session_id, const rgbd::Keyframe& keyframe,
                    const std::string& camera_frame_id) = 0;
   /// The recording has ended; `keyframe_count`: all that the session should have now. May wait for them.
@@ -34,7 +36,8 @@ public:
   explicit StoreSink(keyframes::SessionStore& store) : store_(store) {}
 
   void create(const keyframes::Session& session) override;
-  std::vector<rgbd::Keyframe> reopen(const std::string& session_id, const rgbd::SensorNoiseModel& noise_model) override;
+  std::vector<rgbd::Keyframe> stored(const std::string& session_id, const rgbd::SensorNoiseModel& noise_model) override;
+  void reopen(const std::string& session_id) override;
   void add(const std::string& session_id, const rgbd::Keyframe& keyframe, const std::string& camera_frame_id) override;
   void close(const std::string& session_id, int keyframe_count) override;
   void discard(const std::string& session_id) noexcept override;

@@ -55,12 +55,17 @@ void SessionRecord::create(const keyframes::Session& session)
     pipeline::StoreSink(*store_).create(session);
 }
 
-std::vector<rgbd::Keyframe> SessionRecord::reopen(const std::string& session_id,
+std::vector<rgbd::Keyframe> SessionRecord::stored(const std::string& session_id,
                                                   const rgbd::SensorNoiseModel& noise_model)
 {
   if (store_ == nullptr)
     throw base::Error(base::StatusCode::INVALID_ARGUMENT, "session '" + session_id + "' is in no store");
-  return pipeline::StoreSink(*store_).reopen(session_id, noise_model);
+  return pipeline::StoreSink(*store_).stored(session_id, noise_model);
+}
+
+void SessionRecord::reopen(const std::string& session_id)
+{
+  pipeline::StoreSink(*store_).reopen(session_id);
 }
 
 void SessionRecord::add(const std::string& session_id, const rgbd::Keyframe& keyframe,

@@ -27,7 +27,8 @@ public:
 
   void create(const keyframes::Session& session) override;
   /// INVALID_ARGUMENT without a store.
-  std::vector<rgbd::Keyframe> reopen(const std::string& session_id, const rgbd::SensorNoiseModel& noise_model) override;
+  std::vector<rgbd::Keyframe> stored(const std::string& session_id, const rgbd::SensorNoiseModel& noise_model) override;
+  void reopen(const std::string& session_id) override;
   void add(const std::string& session_id, const rgbd::Keyframe& keyframe, const std::string& camera_frame_id) override;
   /// Waits until the store has as many keyframes as were sent, then closes the session. STORAGE if some never arrive.
   void close(const std::string& session_id, int keyframe_count) override;
