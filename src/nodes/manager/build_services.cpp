@@ -78,10 +78,12 @@ void BuildServices::build(const Build::Request& request, Build::Response& respon
   {
     const std::vector<std::string> session_ids =
         chooseSessions(store_, request.object_id, request.session_ids, last_session_id);
-    if (thread_.joinable())
-      thread_.join();  // has ended, or the state would still be BUILDING
     std::packaged_task<Outcome()> work([this, request, session_ids] { return run(request, session_ids); });
     outcome = work.get_future();
+    // The last build has ended, or the state would still be BUILDING; and this one cannot end before it is kept.
+    const Lock lock(board_.mutex);
+    if (thread_.joinable())
+      thread_.join();
     thread_ = std::thread(std::move(work));
   }
   catch (...)

@@ -26,7 +26,8 @@ public:
                 const ManagerOptions& options, keyframes::SessionStore& store, ManagerBoard& board);
   ~BuildServices();
 
-  /// Cancels the build that runs and refuses new ones; who waits for one is answered soon.
+  /// Ends the build that runs here and refuses new ones; who waits for one is answered soon. The job of the other node
+  /// runs on where ROS is shut down already.
   void close();
 
 private:

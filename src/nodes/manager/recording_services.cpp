@@ -130,10 +130,18 @@ void RecordingServices::endRecording(const std::string& session_id)
   }
   catch (const base::Error& error)
   {
+    if (error.code() == base::StatusCode::CANCELLED)
+      throw;  // this node is being shut down
     ROS_WARN("discarding '%s' all the same: %s", session_id.c_str(), error.what());
+    // If the tracker records all the same, its next report says so.
+    const Lock lock(board_.mutex);
+    board_.state.trackerLost();
+    board_.publishState();
+    return;
   }
   const Lock lock(board_.mutex);
   board_.state.stopped();
+  board_.publishState();
 }
 
 void RecordingServices::deleteSession(const std::string& session_id, bool may_be_missing)
@@ -144,8 +152,11 @@ void RecordingServices::deleteSession(const std::string& session_id, bool may_be
   }
   catch (const base::Error& error)
   {
-    if (error.code() != base::StatusCode::NOT_FOUND || !may_be_missing)
-      throw;
+    if (error.code() == base::StatusCode::NOT_FOUND && may_be_missing)
+      return;
+    const Lock lock(board_.mutex);
+    board_.failed(error.status());
+    throw;
   }
 }
 
