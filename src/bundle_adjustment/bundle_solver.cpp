@@ -67,59 +67,86 @@ ceres::Solver::Options ceresOptions(const BundleSolverOptions& options)
   return result;
 }
 
+/// What the solver changes, and which keyframes have a residual.
+struct Blocks
+{
+  Blocks(const std::vector<rgbd::Keyframe>& keyframes, const BundleState& state)
+      : motions(keyframes.size(), geometry::Vector6d::Zero()),
+        landmarks(state.map.landmarks),
+        sensor(state),
+        seen(keyframes.size(), false)
+  {
+    cameras.reserve(keyframes.size());
+    for (std::size_t k = 0; k < keyframes.size(); ++k)
+      cameras.emplace_back(keyframes[k].frame.camera, state.T_session_camera[k]);
+  }
+
+  std::vector<LinearisedCamera> cameras;
+  std::vector<geometry::Vector6d> motions;
+  std::vector<Eigen::Vector3d> landmarks;
+  SensorBlocks sensor;
+  std::vector<bool> seen;
+};
+
+void addSights(const std::vector<rgbd::Keyframe>& keyframes, const BundleSolverOptions& options,
+               const std::vector<Sight>& sights, ceres::LossFunction* loss, Blocks* blocks, ceres::Problem* problem,
+               ceres::ParameterBlockOrdering* ordering)
+{
+  for (const Sight& sight : sights)
+  {
+    double* motion = blocks->motions[sight.keyframe].data();
+    double* landmark = blocks->landmarks[sight.landmark].data();
+    const LinearisedCamera* camera = &blocks->cameras[sight.keyframe];
+    problem->AddResidualBlock(new ReprojectionCost(camera, sight.pixel, sight.sigma_px), loss, motion, landmark,
+                              blocks->sensor.color_offset_px.data(), blocks->sensor.intrinsics.data());
+    if (sight.depth_m > 0)
+    {
+      const double sigma_m = keyframes[sight.keyframe].frame.noise_model.axialSigma_m(sight.depth_m, 0);
+      blocks->sensor.addDepthCost(std::make_unique<DepthCost>(camera, sight.depth_m, sight.depth_slope_m_px, sigma_m),
+                                  sight.pixel, keyframes[sight.keyframe].frame.camera, options, loss, motion, landmark,
+                                  problem);
+    }
+    ordering->AddElementToGroup(landmark, 0);
+    ordering->AddElementToGroup(motion, 1);
+    blocks->seen[sight.keyframe] = true;
+  }
+}
+
+void addSurfaces(const std::vector<SurfaceLink>& links, ceres::LossFunction* loss, Blocks* blocks,
+                 ceres::Problem* problem, ceres::ParameterBlockOrdering* ordering)
+{
+  for (const SurfaceLink& link : links)
+  {
+    problem->AddResidualBlock(surfaceCost(blocks->cameras[link.a], blocks->cameras[link.b], link), loss,
+                              blocks->motions[link.a].data(), blocks->motions[link.b].data(),
+                              blocks->sensor.color_offset_px.data());
+    for (const int k : { link.a, link.b })
+    {
+      ordering->AddElementToGroup(blocks->motions[k].data(), 1);
+      blocks->seen[k] = true;
+    }
+  }
+}
+
 }  // namespace
 
 BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, int fixed_keyframe,
                                 const BundleSolverOptions& options, base::JobControl& control, BundleState* state)
 {
-  std::vector<LinearisedCamera> cameras;
-  cameras.reserve(keyframes.size());
-  for (std::size_t k = 0; k < keyframes.size(); ++k)
-    cameras.emplace_back(keyframes[k].frame.camera, state->T_session_camera[k]);
-  std::vector<geometry::Vector6d> motions(keyframes.size(), geometry::Vector6d::Zero());
-  std::vector<Eigen::Vector3d> landmarks = state->map.landmarks;
-  SensorBlocks sensor(*state);
-
-  const std::unique_ptr<ceres::LossFunction> loss = std::make_unique<ceres::CauchyLoss>(options.loss_width_sigmas);
+  Blocks blocks(keyframes, *state);
+  ceres::CauchyLoss loss(options.loss_width_sigmas), surface_loss(SURFACE_LOSS_FACTOR * options.loss_width_sigmas);
   ceres::Problem::Options problem_options;
   problem_options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(problem_options);
   ceres::Solver::Options solver_options = ceresOptions(options);
   solver_options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
-  std::vector<bool> seen(keyframes.size(), false);
-  for (const Sight& sight : state->map.sights)
-  {
-    double* motion = motions[sight.keyframe].data();
-    double* landmark = landmarks[sight.landmark].data();
-    const LinearisedCamera* camera = &cameras[sight.keyframe];
-    problem.AddResidualBlock(new ReprojectionCost(camera, sight.pixel, sight.sigma_px), loss.get(), motion, landmark,
-                             sensor.color_offset_px.data(), sensor.intrinsics.data());
-    if (sight.depth_m > 0)
-    {
-      const double sigma_m = keyframes[sight.keyframe].frame.noise_model.axialSigma_m(sight.depth_m, 0);
-      sensor.addDepthCost(std::make_unique<DepthCost>(camera, sight.depth_m, sight.depth_slope_m_px, sigma_m),
-                          sight.pixel, keyframes[sight.keyframe].frame.camera, options, loss.get(), motion, landmark,
-                          &problem);
-    }
-    solver_options.linear_solver_ordering->AddElementToGroup(landmark, 0);
-    solver_options.linear_solver_ordering->AddElementToGroup(motion, 1);
-    seen[sight.keyframe] = true;
-  }
-  ceres::CauchyLoss surface_loss(SURFACE_LOSS_FACTOR * options.loss_width_sigmas);
-  for (const SurfaceLink& link : state->surface_links)
-  {
-    problem.AddResidualBlock(surfaceCost(cameras[link.a], cameras[link.b], link), &surface_loss, motions[link.a].data(),
-                             motions[link.b].data(), sensor.color_offset_px.data());
-    for (const int k : { link.a, link.b })
-    {
-      solver_options.linear_solver_ordering->AddElementToGroup(motions[k].data(), 1);
-      seen[k] = true;
-    }
-  }
-  if (fixed_keyframe >= 0 && seen[fixed_keyframe])
-    problem.SetParameterBlockConstant(motions[fixed_keyframe].data());
+  addSights(keyframes, options, state->map.sights, &loss, &blocks, &problem,
+            solver_options.linear_solver_ordering.get());
+  addSurfaces(state->surface_links, &surface_loss, &blocks, &problem, solver_options.linear_solver_ordering.get());
+  if (fixed_keyframe >= 0 && blocks.seen[fixed_keyframe])
+    problem.SetParameterBlockConstant(blocks.motions[fixed_keyframe].data());
 
-  sensor.finish(options, &problem, solver_options.linear_solver_ordering.get());
+  blocks.sensor.finish(options, &problem, solver_options.linear_solver_ordering.get());
 
   ProgressCallback callback(&control, options.max_iterations);
   solver_options.callbacks.push_back(&callback);
@@ -135,14 +162,14 @@ BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, in
     return result;
   for (std::size_t k = 0; k < keyframes.size(); ++k)
   {
-    if (seen[k] && static_cast<int>(k) != fixed_keyframe)
+    if (blocks.seen[k] && static_cast<int>(k) != fixed_keyframe)
     {
-      state->T_session_camera[k] =
-          geometry::normalised((geometry::isometryFromVector(motions[k]) * cameras[k].T_camera_session).inverse());
+      state->T_session_camera[k] = geometry::normalised(
+          (geometry::isometryFromVector(blocks.motions[k]) * blocks.cameras[k].T_camera_session).inverse());
     }
   }
-  state->map.landmarks = std::move(landmarks);
-  sensor.store(options, &problem, state);
+  state->map.landmarks = std::move(blocks.landmarks);
+  blocks.sensor.store(options, &problem, state);
   return result;
 }
 

@@ -104,6 +104,28 @@ float averagedDepthSigma_m(const rgbd::SensorNoiseModel& noise_model, float z_m)
   return std::sqrt(noise_m * noise_m + systematic_m * systematic_m);
 }
 
+namespace
+{
+/// The depth residual of a point whose normal and place are known; `step_m`: how far it is behind what was measured.
+void compareDepth(float step_m, float inverse_z, const rgbd::SensorNoiseModel& noise_model, DenseResiduals* residuals,
+                  DenseResidual* s, std::vector<float>* sizes)
+{
+  const float z_m = s->q.z();
+  // Both points lie on one ray: their distance along it, seen along the normal.
+  const float foreshortening = -s->normal.dot(s->q) * inverse_z;
+  if (!(foreshortening > MIN_FACING_COSINE))
+    return;
+  ++residuals->with_depth;
+  const float sigma_m = averagedDepthSigma_m(noise_model, z_m);
+  s->depth_residual = -foreshortening * step_m;
+  residuals->agreeing += std::abs(step_m) < AGREEMENT_SIGMAS * sigma_m + AGREEMENT_RATIO * z_m;
+  s->depth_sigma = foreshortening * sigma_m;
+  s->has_depth = std::abs(step_m) <= MAX_DEPTH_STEP_RATIO * z_m;
+  if (s->has_depth && residuals->with_depth % SCALE_SAMPLES == 0)
+    sizes->push_back(std::abs(s->depth_residual / s->depth_sigma));
+}
+}  // namespace
+
 void observe(const DensePoints& points, const DenseLevel& level, const Eigen::Isometry3d& T_camera_reference,
              DenseResiduals* residuals)
 {
@@ -142,19 +164,7 @@ void observe(const DensePoints& points, const DenseLevel& level, const Eigen::Is
     if (!std::isnan(step_m) && !point.n.isZero())
     {
       s.normal = R * point.n;
-      // Both points lie on one ray: their distance along it, seen along the normal.
-      const float foreshortening = -s.normal.dot(q) * inverse_z;
-      if (foreshortening > MIN_FACING_COSINE)
-      {
-        ++residuals->with_depth;
-        const float sigma_m = averagedDepthSigma_m(level.noise_model, q.z());
-        s.depth_residual = -foreshortening * step_m;
-        residuals->agreeing += std::abs(step_m) < AGREEMENT_SIGMAS * sigma_m + AGREEMENT_RATIO * q.z();
-        s.depth_sigma = foreshortening * sigma_m;
-        s.has_depth = std::abs(step_m) <= MAX_DEPTH_STEP_RATIO * q.z();
-        if (s.has_depth && residuals->with_depth % SCALE_SAMPLES == 0)
-          depth_sizes.push_back(std::abs(s.depth_residual / s.depth_sigma));
-      }
+      compareDepth(step_m, inverse_z, level.noise_model, residuals, &s, &depth_sizes);
     }
     s.textured = point.textured;
     if (s.textured)

@@ -55,6 +55,85 @@ void growFeet(const cv::Mat& depth_m, const cv::Mat& foreground, float ratio, cv
   }
 }
 
+/// Labels of the HIGH pixels, 0 elsewhere: equal, or of one set, where pixels are connected.
+cv::Mat connectHigh(const cv::Mat& depth_m, const cv::Mat& foreground, float ratio, base::DisjointSets* sets)
+{
+  cv::Mat labels = cv::Mat::zeros(foreground.size(), CV_32SC1);
+  for (int v = 0; v < foreground.rows; ++v)
+  {
+    const auto* on = foreground.ptr<std::uint8_t>(v);
+    for (int u = 0; u < foreground.cols; ++u)
+    {
+      if (on[u] != HIGH)
+        continue;
+      const float z = depth_m.at<float>(v, u);
+      int label = 0;
+      const auto meet = [&](int x, int y)
+      {
+        const int other = labels.at<int>(y, x);
+        if (other == 0 || !connected(z, depth_m.at<float>(y, x), ratio))
+          return;
+        if (label == 0)
+          label = other;
+        else
+          sets->unite(label, other);
+      };
+      // The nearest pixel with depth to the left and above, and the diagonal neighbours.
+      for (int gap = 1; gap <= MAX_GAP_PX + 1 && u - gap >= 0; ++gap)
+        if (std::isfinite(depth_m.at<float>(v, u - gap)))
+        {
+          meet(u - gap, v);
+          break;
+        }
+      for (int gap = 1; gap <= MAX_GAP_PX + 1 && v - gap >= 0; ++gap)
+        if (std::isfinite(depth_m.at<float>(v - gap, u)))
+        {
+          meet(u, v - gap);
+          break;
+        }
+      if (v > 0 && u > 0)
+        meet(u - 1, v - 1);
+      if (v > 0 && u + 1 < foreground.cols)
+        meet(u + 1, v - 1);
+      labels.at<int>(v, u) = label != 0 ? label : static_cast<int>(sets->add());
+    }
+  }
+  return labels;
+}
+
+/// Gives the pixels of a set one label, and the clusters of at least `min_pixels` of them.
+std::vector<Cluster> clustersOf(base::DisjointSets& sets, int min_pixels, cv::Mat* labels)
+{
+  struct Extent
+  {
+    int count = 0, left = 0, right = 0, top = 0, bottom = 0;
+  };
+  std::vector<Extent> extents(sets.size());
+  for (int v = 0; v < labels->rows; ++v)
+  {
+    auto* row = labels->ptr<int>(v);
+    for (int u = 0; u < labels->cols; ++u)
+    {
+      if (row[u] == 0)
+        continue;
+      row[u] = static_cast<int>(sets.find(row[u]));
+      Extent& extent = extents[row[u]];
+      if (extent.count++ == 0)
+        extent = { 1, u, u, v, v };
+      extent.left = std::min(extent.left, u);
+      extent.right = std::max(extent.right, u);
+      extent.bottom = v;
+    }
+  }
+  std::vector<Cluster> clusters;
+  for (int label = 1; label < static_cast<int>(sets.size()); ++label)
+  {
+    const Extent& e = extents[label];
+    if (e.count >= min_pixels)
+      clusters.push_back({ label, e.count, cv::Rect(e.left, e.top, e.right - e.left + 1, e.bottom - e.top + 1) });
+  }
+  return clusters;
+}
 }  // namespace
 
 cv::Mat pixelsAbove(const rgbd::Frame& frame, const geometry::Plane& plane_camera, const HeightLimits& limits,
@@ -115,82 +194,11 @@ cv::Mat Clusters::mask(const Cluster& cluster) const
 Clusters clusterSmooth(const rgbd::Frame& frame, const cv::Mat& foreground, double depth_step_ratio, int min_pixels)
 {
   const auto ratio = static_cast<float>(depth_step_ratio);
-  Clusters result;
-  result.labels = cv::Mat::zeros(foreground.size(), CV_32SC1);
-  cv::Mat& labels = result.labels;
-  const cv::Mat& depth_m = frame.depth_m;
   base::DisjointSets sets(1);  // 0 is the background
-
-  for (int v = 0; v < foreground.rows; ++v)
-  {
-    const auto* on = foreground.ptr<std::uint8_t>(v);
-    for (int u = 0; u < foreground.cols; ++u)
-    {
-      if (on[u] != HIGH)
-        continue;
-      const float z = depth_m.at<float>(v, u);
-      int label = 0;
-      const auto meet = [&](int x, int y)
-      {
-        const int other = labels.at<int>(y, x);
-        if (other == 0 || !connected(z, depth_m.at<float>(y, x), ratio))
-          return;
-        if (label == 0)
-          label = other;
-        else
-          sets.unite(label, other);
-      };
-      // The nearest pixel with depth to the left and above, and the diagonal neighbours.
-      for (int gap = 1; gap <= MAX_GAP_PX + 1 && u - gap >= 0; ++gap)
-        if (std::isfinite(depth_m.at<float>(v, u - gap)))
-        {
-          meet(u - gap, v);
-          break;
-        }
-      for (int gap = 1; gap <= MAX_GAP_PX + 1 && v - gap >= 0; ++gap)
-        if (std::isfinite(depth_m.at<float>(v - gap, u)))
-        {
-          meet(u, v - gap);
-          break;
-        }
-      if (v > 0 && u > 0)
-        meet(u - 1, v - 1);
-      if (v > 0 && u + 1 < foreground.cols)
-        meet(u + 1, v - 1);
-      labels.at<int>(v, u) = label != 0 ? label : static_cast<int>(sets.add());
-    }
-  }
-
-  growFeet(depth_m, foreground, ratio, &labels);
-
-  struct Extent
-  {
-    int count = 0, left = 0, right = 0, top = 0, bottom = 0;
-  };
-  std::vector<Extent> extents(sets.size());
-  for (int v = 0; v < labels.rows; ++v)
-  {
-    auto* row = labels.ptr<int>(v);
-    for (int u = 0; u < labels.cols; ++u)
-    {
-      if (row[u] == 0)
-        continue;
-      row[u] = static_cast<int>(sets.find(row[u]));
-      Extent& extent = extents[row[u]];
-      if (extent.count++ == 0)
-        extent = { 1, u, u, v, v };
-      extent.left = std::min(extent.left, u);
-      extent.right = std::max(extent.right, u);
-      extent.bottom = v;
-    }
-  }
-  for (int label = 1; label < static_cast<int>(sets.size()); ++label)
-  {
-    const Extent& e = extents[label];
-    if (e.count >= min_pixels)
-      result.clusters.push_back(
-          { label, e.count, cv::Rect(e.left, e.top, e.right - e.left + 1, e.bottom - e.top + 1) });
-  }
+  Clusters result;
+  result.labels = connectHigh(frame.depth_m, foreground, ratio, &sets);
+  growFeet(frame.depth_m, foreground, ratio, &result.labels);
+  result.clusters = clustersOf(sets, min_pixels, &result.labels);
   std::stable_sort(result.clusters.begin(), result.clusters.end(),
                    [](const Cluster& a, const Cluster& b) { return a.pixel_count > b.pixel_count; });
   return result;

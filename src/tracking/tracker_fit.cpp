@@ -21,6 +21,56 @@ int countTrusted(const std::vector<LandmarkMatch>& matches)
   return static_cast<int>(
       std::count_if(matches.begin(), matches.end(), [](const LandmarkMatch& match) { return match.trusted; }));
 }
+
+/// What surfaces that fit, and a prediction where there is one, say of a pose.
+registration::QuadraticTerm termOf(const registration::DenseAlignment& aligned, bool surfaces_fit,
+                                   const registration::QuadraticTerm* prediction)
+{
+  registration::QuadraticTerm term;
+  term.T_camera_session = aligned.T_session_camera.inverse();
+  if (surfaces_fit)
+    term.equations = aligned.term.equations;
+  // What nothing tells of a lost camera shows as a large covariance.
+  if (prediction)
+    term.equations += prediction->at(term.T_camera_session);
+  else
+    term.equations.A += geometry::Matrix6d::Identity() / (LOST_SIGMA * LOST_SIGMA);
+  return term;
+}
+
+std::string tooFew(int close_count, int predicted_count, int min_inliers, const registration::DenseTerm& surfaces)
+{
+  return std::to_string(close_count) + " consistent landmarks of " + std::to_string(predicted_count) +
+         " that should be in view (at least " + std::to_string(min_inliers) +
+         " are needed), and surfaces: " + registration::describe(surfaces);
+}
+
+/// What of the map the frame shows near a pose, and landmarks by optical flow where that is less than `enough`. Matches
+/// that are not trusted count only of a camera that is not `lost`, and where `enough` others are missing.
+MapMatches matchesNear(const KeyframeMap& map, const rgbd::Frame& frame, const registration::ImagePyramid& pyramid,
+                       const Eigen::Isometry3d& T_session_camera, const std::vector<LandmarkMatch>& flow,
+                       const MapMatchingOptions& options, int enough, bool lost)
+{
+  std::unordered_map<std::uint64_t, Eigen::Vector2f> flow_pixels;
+  for (const LandmarkMatch& match : flow)
+    flow_pixels.emplace(match.landmark_id, match.correspondence.pixel.cast<float>());
+  MapMatches found = matchMap(map, frame, pyramid, T_session_camera, flow_pixels, options);
+  // Optical flow drifts; it counts only where too little of the map is recognised.
+  if (static_cast<int>(found.matches.size()) < enough)
+  {
+    for (const LandmarkMatch& match : found.matches)
+      flow_pixels.erase(match.landmark_id);
+    for (const LandmarkMatch& match : flow)
+      if (flow_pixels.count(match.landmark_id) > 0)
+        found.matches.push_back(match);
+  }
+  // What was placed in doubt has no say where others suffice, and none in where a lost camera is.
+  if (lost || countTrusted(found.matches) >= enough)
+    found.matches.erase(std::remove_if(found.matches.begin(), found.matches.end(),
+                                       [](const LandmarkMatch& match) { return !match.trusted; }),
+                        found.matches.end());
+  return found;
+}
 }  // namespace
 
 registration::PoseEstimationOptions CameraTracker::Implementation::poseOptions(const rgbd::Frame& frame) const
@@ -71,38 +121,14 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeNea
   placement.overlap = aligned.term.overlap;
 
   const StageTimer map_timer(&times->map_ms);
-  std::unordered_map<std::uint64_t, Eigen::Vector2f> flow_pixels;
-  for (const LandmarkMatch& match : flow)
-    flow_pixels.emplace(match.landmark_id, match.correspondence.pixel.cast<float>());
   MapMatchingOptions matching;
   matching.prediction_error_px = prediction_error_px;
   matching.max_matches = options_.max_features;
-  MapMatches found = matchMap(map_, view.frame, view.pyramid, T_session_camera, flow_pixels, matching);
+  const MapMatches found = matchesNear(map_, view.frame, view.pyramid, T_session_camera, flow, matching,
+                                       2 * options_.min_inliers, prediction == nullptr);
   placement.reference_share = found.reference_share;
-  // Optical flow drifts; it counts only where too little of the map is recognised.
-  if (static_cast<int>(found.matches.size()) < 2 * options_.min_inliers)
-  {
-    for (const LandmarkMatch& match : found.matches)
-      flow_pixels.erase(match.landmark_id);
-    for (const LandmarkMatch& match : flow)
-      if (flow_pixels.count(match.landmark_id) > 0)
-        found.matches.push_back(match);
-  }
-  // What was placed in doubt has no say where others suffice, and none in where a lost camera is.
-  if (!prediction || countTrusted(found.matches) >= 2 * options_.min_inliers)
-    found.matches.erase(std::remove_if(found.matches.begin(), found.matches.end(),
-                                       [](const LandmarkMatch& match) { return !match.trusted; }),
-                        found.matches.end());
 
-  registration::QuadraticTerm term;
-  term.T_camera_session = T_session_camera.inverse();
-  if (surfaces_fit)
-    term.equations = aligned.term.equations;
-  // What nothing tells of a lost camera shows as a large covariance.
-  if (prediction)
-    term.equations += prediction->at(term.T_camera_session);
-  else
-    term.equations.A += geometry::Matrix6d::Identity() / (LOST_SIGMA * LOST_SIGMA);
+  const registration::QuadraticTerm term = termOf(aligned, surfaces_fit, prediction);
   placement.pose = registration::refinePose(correspondencesOf(found.matches), view.frame.camera, T_session_camera,
                                             poseOptions(view.frame), &term);
   const bool landmarks_fit =
@@ -112,10 +138,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeNea
       (!landmarks_fit &&
        !(surfaces_fit && (prediction ? registration::convincing(aligned.term) : registration::certain(aligned.term)))))
   {
-    placement.reason = std::to_string(placement.pose.close_count) + " consistent landmarks of " +
-                       std::to_string(found.predicted_count) + " that should be in view (at least " +
-                       std::to_string(options_.min_inliers) +
-                       " are needed), and surfaces: " + registration::describe(aligned.term);
+    placement.reason = tooFew(placement.pose.close_count, found.predicted_count, options_.min_inliers, aligned.term);
     placement.pose.valid = false;
     return placement;
   }

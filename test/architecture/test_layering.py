@@ -87,6 +87,24 @@ class LibraryHabitsTest(unittest.TestCase):
                 too_long[os.path.relpath(path, source_tree.ROOT)] = lines
         self.assertEqual(too_long, {})
 
+    def test_functions_stay_short(self):
+        """60 lines between the braces of a definition; clang-format puts those of a function at the line's start."""
+        too_long = {}
+        for path in source_tree.cpp_files("include", "src"):
+            with open(path) as text:
+                lines = text.read().split("\n")
+            begin = None
+            for number, line in enumerate(lines):
+                if line == "{":
+                    head = " ".join(lines[max(0, number - 3):number])
+                    is_function = lines[number - 1].endswith((")", "const", "noexcept", "override")) or " : " in head
+                    begin = number if is_function and not lines[number - 1].startswith(("class ", "struct ")) else None
+                if line == "}" and begin is not None:
+                    if number - begin - 1 > 60:
+                        too_long[f"{os.path.relpath(path, source_tree.ROOT)}:{begin}"] = number - begin - 1
+                    begin = None
+        self.assertEqual(too_long, {})
+
 
 if __name__ == "__main__":
     unittest.main()
