@@ -289,8 +289,8 @@ class ShutdownTest(ManagerTest):
         caller.start()
         self.assertTrue(self.jobs.refine.started.wait(10))
         manager.send_signal(signal.SIGINT)
-        self.assertEqual(manager.wait(5), 0)
-        caller.join(5)
+        self.assertEqual(manager.wait(15), 0)
+        caller.join(15)
         self.assertFalse(caller.is_alive())
         if not isinstance(answers[0], rospy.ServiceException):  # the connection closed first
             self.assertEqual(answers[0].status.code, Code.CANCELLED)

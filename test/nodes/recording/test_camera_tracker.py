@@ -348,9 +348,9 @@ class ShutdownTest(unittest.TestCase):
         caller = threading.Thread(target=stop)
         caller.start()
         wait_until(lambda: len(asked) > before + 3, "the tracker to wait for its keyframe")
-        code, output = process.interrupt(5)
+        code, output = process.interrupt(15)
         self.assertEqual(code, 0, output)
-        caller.join(5)
+        caller.join(15)
         self.assertFalse(caller.is_alive())
         subscriber.unregister()
         for service in services:
