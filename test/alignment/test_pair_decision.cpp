@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "object_modelling/alignment/object_difference.h"
 #include "object_modelling/alignment/pair_evidence.h"
 #include "registration/made_part.h"
 
@@ -193,11 +194,11 @@ TEST_F(DecisionOfAPlate, SharesTheProbabilityBetweenPosesThatMakeOtherObjects)
 {
   registration::PairQuality better = good(), worse = good();
   worse.rmse_m *= 1.3;
-  ASSERT_TRUE(scoreAlike(better, worse));
   const PairAlignment found = decidedOn({ candidate(better), candidate(worse, quarter_) });
-  // 40 of 80 mm beyond the middle on either side, less 3 spacings that count as found.
+  // 40 of 80 mm beyond the middle on either side, less 3 spacings that count as found, of the larger part's points; the
+  // smaller one's all meet.
   expectReason(found, "two poses 90 deg apart score alike");
-  EXPECT_NEAR(elsewhere_percent(found), 100 * (40 - 6) / 80.0, 2);
+  EXPECT_NEAR(elsewhere_percent(found), 50 * (40 - 6) / 80.0 * 2500 / (2500 + 1600) * 2, 2);
   const double all = 1 + oddsOf(better) + oddsOf(worse);
   EXPECT_NEAR(found.candidates[0].quality.probability, oddsOf(better) / all, 1e-9);
   EXPECT_NEAR(found.candidates[1].quality.probability, oddsOf(worse) / all, 1e-9);
@@ -209,29 +210,27 @@ TEST_F(DecisionOfAPlate, JoinsThePosesThatMakeTheSameObject)
 {
   const PairAlignment found = decidedOn({ candidate(bare()), candidate(bare(), half_) });
   EXPECT_TRUE(found.accepted) << found.reason;
-  const double both = 2 * oddsOf(bare()) / (1 + 2 * oddsOf(bare()));
-  EXPECT_NEAR(found.candidates[0].quality.probability, both, 1e-12);
-  EXPECT_NEAR(found.candidates[1].quality.probability, both, 1e-12);
-  const PairAlignment third = decidedOn({ candidate(bare()), candidate(bare(), half_), candidate(bare(), quarter_) });
-  const double all = 1 + 3 * oddsOf(bare());
-  EXPECT_NEAR(third.candidates[0].quality.probability, 2 * oddsOf(bare()) / all, 1e-12);
-  EXPECT_NEAR(third.candidates[1].quality.probability, 2 * oddsOf(bare()) / all, 1e-12);
-  EXPECT_NEAR(third.candidates[2].quality.probability, oddsOf(bare()) / all, 1e-12);
-  expectReason(third, "two poses 90 deg apart score alike");
+  const double same = sameObjectProbability({}, 0), all = 1 + 2 * oddsOf(bare());
+  EXPECT_GT(same, 0.9);
+  EXPECT_NEAR(found.candidates[0].quality.probability, (1 + same) * oddsOf(bare()) / all, 1e-9);
+  EXPECT_EQ(found.candidates[0].quality.probability, found.candidates[1].quality.probability);
 }
 
-TEST_F(DecisionOfAPlate, MayLieElsewhereByMoreWhereNobodyLooked)
+TEST_F(DecisionOfAPlate, CountsARivalByHowProbablyItMakesTheSameObject)
 {
-  // 22 mm along 160 mm, of which 6 mm count as found: a tenth of it lies elsewhere.
-  const std::vector<PairCandidate> two = { candidate(good()),
-                                           candidate(good(), registration::pose({ 0.022F, 0, 0 }, 0, Z)) };
-  EXPECT_TRUE(decidedOn(two).accepted);
-  middle_.views = { registration::viewAlongZ(1.1F), registration::viewAlongZ(1.1F) };
-  EXPECT_NEAR(elsewhere_percent(decidedOn(two)), 10, 1);
-  middle_.views.clear();
-  const std::vector<PairCandidate> far = { candidate(good()),
-                                           candidate(good(), registration::pose({ 0.04F, 0, 0 }, 0, Z)) };
-  EXPECT_NEAR(elsewhere_percent(decidedOn(far)), 100 * (40 - 6) / 160.0, 1);
+  // Views that look through what a quarter turn puts beside the plate.
+  all_.views = middle_.views = { registration::viewAlongZ(1.1F), registration::viewAlongZ(1.1F) };
+  const PairAlignment found = decidedOn({ candidate(bare()), candidate(bare(), half_), candidate(bare(), quarter_) });
+  const registration::MatchedSurface a(middle_, 1), b(all_, 1);
+  const auto same = [&](const Eigen::Isometry3f& rival)
+  { return sameObjectProbability(differenceOf(a, b, Eigen::Isometry3f::Identity(), rival), 0); };
+  EXPECT_GT(same(half_), 0.9);
+  EXPECT_LT(same(quarter_), 0.5);
+  const double all = 1 + 3 * oddsOf(bare());
+  EXPECT_NEAR(found.candidates[0].quality.probability, (1 + same(half_) + same(quarter_)) * oddsOf(bare()) / all, 1e-9);
+  EXPECT_EQ(found.candidates[0].quality.probability, found.candidates[1].quality.probability);
+  EXPECT_NEAR(found.candidates[2].quality.probability, oddsOf(bare()) / all, 1e-12) << "not joined";
+  expectReason(found, "two poses 90 deg apart score alike");
 }
 
 /// A plate of 160 x 160 mm, the same after half a turn but for what is printed on it.
@@ -243,57 +242,35 @@ PairAlignment decidedOfHalfTurn(const registration::ColorAt& color, const regist
   return decided(printed, printed, { candidate(quality), candidate(quality, half) });
 }
 
-registration::ColorAt label(float side_m, float difference)
-{
-  return [=](const Eigen::Vector3f& p)
-  {
-    const bool on = std::max(std::abs(p.x() - 0.04F), std::abs(p.y() - 0.04F)) < side_m / 2;
-    return Eigen::Vector3f(on ? difference : 0, 0, 0);
-  };
-}
-
-TEST(PairDecision, ALabelAloneTellsTwoPosesApart)
-{
-  // 24 x 24 of 160 x 160 mm, there and where it is after half a turn: 4.5 % of the points differ by 0.45.
-  constexpr double SHARE = 2 * 24.0 * 24 / (160 * 160), DIFFERENCE = 0.45;
-  ASSERT_LT(DIFFERENCE * std::sqrt(SHARE), 0.1) << "the colours of the whole are the same";
-  const PairAlignment found = decidedOfHalfTurn(label(0.024F, DIFFERENCE));
-  expectReason(found, "two poses 180 deg apart score alike: the shape is symmetric, and the print that both");
-  EXPECT_NEAR(found.candidates[0].quality.probability, 0.5, 1e-3);
-  registration::PairQuality pale = good();
-  pale.texture = 0.04;
-  expectReason(decidedOfHalfTurn(label(0.024F, DIFFERENCE), pale), "the sides that both sessions see are plain");
-}
-
-TEST(PairDecision, WhatIsFaintOrSmallIsNoLabel)
-{
-  EXPECT_TRUE(decidedOfHalfTurn(label(0.024F, 0.3F)).accepted) << "light and focus may do as much";
-  EXPECT_TRUE(decidedOfHalfTurn(label(0.014F, 0.45F)).accepted) << "1.5 % of the points";
-  EXPECT_TRUE(decidedOfHalfTurn(registration::plain).accepted);
-}
-
-TEST(PairDecision, FaintPrintAllOverTellsTwoPosesApart)
+TEST(PairDecision, PrintThatDiffersMakesTwoPosesLessTheSame)
 {
   const auto half_painted = [](float difference)
   { return [=](const Eigen::Vector3f& p) { return Eigen::Vector3f(p.x() > 0 ? difference : 0, 0, 0); }; };
-  EXPECT_FALSE(decidedOfHalfTurn(half_painted(0.15F)).accepted);
-  EXPECT_TRUE(decidedOfHalfTurn(half_painted(0.07F)).accepted);
+  const PairAlignment plain = decidedOfHalfTurn(registration::plain), faint = decidedOfHalfTurn(half_painted(0.1F)),
+                      strong = decidedOfHalfTurn(half_painted(1.5F));
+  EXPECT_TRUE(plain.accepted) << plain.reason;
+  EXPECT_GT(plain.candidates[0].quality.probability, faint.candidates[0].quality.probability + 0.01);
+  EXPECT_GT(faint.candidates[0].quality.probability, strong.candidates[0].quality.probability + 0.01);
+  expectReason(strong, "two poses 180 deg apart score alike: the shape is symmetric, and the print that both");
+  registration::PairQuality pale = good();
+  pale.texture = 0.04;
+  expectReason(decidedOfHalfTurn(half_painted(1.5F), pale), "the sides that both sessions see are plain");
 }
 
-TEST(ScoreAlike, UpToSomeLogOdds)
+TEST(PairDecision, ATurnedPoseLeadsWhereItMakesTheSameObject)
 {
-  const registration::PairQuality best = bare();
-  bool alike = false, apart = false;
-  for (double factor = 1; factor < 5; factor *= 1.1)
-  {
-    registration::PairQuality rival = bare();
-    rival.rmse_m *= factor;
-    const bool near = logOdds(best, 0.5) - logOdds(rival, 0.5) <= 1.2;
-    (near ? alike : apart) = true;
-    EXPECT_EQ(scoreAlike(best, rival), near) << factor;
-    EXPECT_TRUE(scoreAlike(rival, best)) << "a better one is a rival at any distance";
-  }
-  EXPECT_TRUE(alike && apart);
+  const registration::PartialModel plate_ = plate(80, 80, registration::plain);
+  registration::PairQuality stayed = good(), turned = good();
+  stayed.turn_rad = 0.1;
+  stayed.contact_gap_m = stayed.foot_m;
+  turned.rmse_m *= 40;
+  ASSERT_GT(oddsOf(stayed), 0.1 * oddsOf(turned));
+  const Eigen::Isometry3f half = registration::pose({ 0, 0, 0 }, static_cast<float>(M_PI), Z);
+  const PairAlignment found = decided(plate_, plate_, { candidate(stayed), candidate(turned, half) });
+  EXPECT_TRUE(found.accepted) << found.reason;
+  EXPECT_EQ(found.candidates[0].quality.turn_rad, turned.turn_rad);
+  const Eigen::Isometry3f elsewhere = registration::pose({ 0, 0, 0.3F }, 0, Z);
+  EXPECT_FALSE(decided(plate_, plate_, { candidate(stayed), candidate(turned, elsewhere) }).accepted);
 }
 
 }  // namespace

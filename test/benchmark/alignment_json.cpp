@@ -45,6 +45,14 @@ nlohmann::json candidateJson(const alignment::PairCandidate& candidate, const Ca
   return json;
 }
 
+nlohmann::json toJson(const alignment::DifferenceFeatures& features)
+{
+  nlohmann::json json;
+  for (std::size_t i = 0; i < features.size(); ++i)
+    json[alignment::nameOf(static_cast<alignment::DifferenceFeature>(i))] = features[i];
+  return json;
+}
+
 nlohmann::json toJson(const PairRow& pair)
 {
   nlohmann::json json = { { "a", pair.a },
@@ -72,6 +80,10 @@ nlohmann::json toJson(const PairRow& pair)
     json["candidates"].push_back(
         candidateJson(pair.result.candidates[i], pair.same_object ? &pair.errors[i] : nullptr));
     json["candidates"].back()["right"] = static_cast<bool>(pair.right[i]);
+    json["candidates"].back()["log_odds"] =
+        alignment::logOdds(pair.result.candidates[i].quality, pair.same_pose_probability);
+    if (i < pair.differences.size() && pair.differences[i])
+      json["candidates"].back()["difference"] = toJson(*pair.differences[i]);
   }
   if (pair.from_truth)
     json["from_truth"] = candidateJson(*pair.from_truth, &pair.from_truth_errors);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "alignment_truth.h"
+#include "object_modelling/alignment/object_difference.h"
 
 namespace object_modelling::benchmark_alignment
 {
@@ -29,6 +30,7 @@ struct PairRow
   std::string a, b;
   bool same_object = false;
   double seconds = 0;
+  double same_pose_probability = 0;  ///< as it was aligned with
   alignment::PairAlignment result;
   // Of the same object only.
   double true_overlap = 0;
@@ -38,6 +40,8 @@ struct PairRow
   std::optional<alignment::PairCandidate> from_truth;  ///< where the true pose ends, moved into place as they were
   CandidateErrors from_truth_errors;
 
+  /// Of a candidate from the first one; of those that are not far less probable.
+  std::vector<std::optional<alignment::DifferenceFeatures>> differences;
   std::vector<bool> right;  ///< one per candidate
   bool firstIsRight() const { return !right.empty() && right.front(); }
   std::optional<int> rankOfRight() const;  ///< of the first candidate that is right, from 1

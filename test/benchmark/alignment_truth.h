@@ -6,6 +6,7 @@
 
 #include "object_modelling/alignment/pair_alignment.h"
 #include "object_modelling/mesh/reference_surface.h"
+#include "object_modelling/rgbd/keyframe.h"
 
 // Where the object truly is in a session of a simulated sequence, and how far an alignment is off.
 namespace object_modelling::benchmark_alignment

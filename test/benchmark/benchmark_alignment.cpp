@@ -18,6 +18,7 @@
 #include "alignment_sessions.h"
 #include "benchmark_program.h"
 #include "object_modelling/alignment/alignment_by_points.h"
+#include "object_modelling/alignment/pair_evidence.h"
 #include "object_modelling/alignment/session_part.h"
 #include "object_modelling/base/atomic_file.h"
 #include "object_modelling/evaluation/comparison_files.h"
@@ -150,11 +151,29 @@ void refineTruth(const SessionRow& a, const SessionRow& b, const Arguments& argu
   row->from_truth_errors = errorsOf(row->from_truth->T_a_b, b.part, a.truth, b.truth, surfaces->of(a.truth));
 }
 
+/// What a rival's making the same object is learnt from.
+std::vector<std::optional<alignment::DifferenceFeatures>> differencesFromFirst(
+    const registration::PartialModel& part_a, const registration::PartialModel& part_b,
+    const std::vector<alignment::PairCandidate>& candidates, const alignment::PairAlignmentOptions& options)
+{
+  constexpr double MOST_GAP = 7;  // of log odds: beyond it a pose does not count
+  const registration::MatchedSurface a(part_a, options.threads), b(part_b, options.threads);
+  std::vector<std::optional<alignment::DifferenceFeatures>> result(candidates.size());
+  const auto log_odds = [&](std::size_t i)
+  { return alignment::logOdds(candidates[i].quality, options.same_pose_probability); };
+  for (std::size_t i = 1; i < candidates.size(); ++i)
+    if (const double gap = log_odds(0) - log_odds(i); gap < MOST_GAP)
+      result[i] = alignment::featuresOf(
+          alignment::differenceOf(a, b, candidates[0].T_a_b.cast<float>(), candidates[i].T_a_b.cast<float>()), gap);
+  return result;
+}
+
 PairRow alignSessions(const SessionRow& a, const SessionRow& b, const Arguments& arguments, Surfaces* surfaces)
 {
   PairRow row;
   row.a = a.id;
   row.b = b.id;
+  row.same_pose_probability = arguments.pair.same_pose_probability;
   row.same_object = a.truth.object == b.truth.object;
   base::JobControl control;
   const auto start = std::chrono::steady_clock::now();
@@ -172,6 +191,7 @@ PairRow alignSessions(const SessionRow& a, const SessionRow& b, const Arguments&
     row.right[i] = isRight(row.errors.back(), arguments.grey);
   }
   refineTruth(a, b, arguments, surfaces, &row);
+  row.differences = differencesFromFirst(a.part, b.part, row.result.candidates, arguments.pair);
   return row;
 }
 

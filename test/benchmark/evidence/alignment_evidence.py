@@ -14,7 +14,8 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "evaluation_kit"))
 
-from judge import Judge  # noqa: E402, after the path of the kit
+from difference import NAMES as DIFFERENCES, difference_header, examples, fit_difference, loss  # noqa: E402, after the path of the kit
+from judge import Judge  # noqa: E402
 from logistic import Choice, calibrate, fit, probabilities  # noqa: E402
 from pictures import pictures  # noqa: E402
 from report import failures_table, outcome_table, reliability_table, same_pose, well_recorded  # noqa: E402
@@ -103,6 +104,26 @@ def run_fit(arguments):
             text.write(header(names, parameters, scale * errors, arguments, (len(choices), len(others))))
 
 
+def well_recorded_pairs(reports):
+    for report in reports:
+        sessions = {session["id"]: session for session in report["sessions"]}
+        yield from (p for p in report["pairs"] if p["same_object"] and well_recorded(p, sessions))
+
+
+def run_fit_difference(arguments):
+    fitted = examples(well_recorded_pairs(read(arguments.fit)))
+    others = examples(well_recorded_pairs(read(arguments.check)))
+    parameters, errors = fit_difference(*fitted, arguments.strength)
+    for name, (features, right, weights) in (("fit", fitted), ("other", others)):
+        value = loss(parameters, features, right, weights, np.zeros(len(parameters)))[0] / weights.sum()
+        print(f"{name}: {len(right)} rivals, of them right by weight {right @ weights / weights.sum():.3f}, mean loss {value:.3f}")
+    for name, weight, error in zip([*DIFFERENCES, "bias"], parameters, errors):
+        print(f"  {name:12s} {weight:8.3f} +- {error:.3f}")
+    if arguments.header:
+        with open(arguments.header, "w") as text:
+            text.write(difference_header(parameters, errors, len(fitted[1])))
+
+
 def run_report(arguments):
     for path, report in zip(arguments.json, read(arguments.json)):
         print(f"## {os.path.basename(path)}\n\n{outcome_table(report)}\n\n{reliability_table(report)}")
@@ -126,6 +147,12 @@ def main():
     fitting.add_argument("--cross-weight", type=float, default=0.5,
                          help="of all pairs of two objects, against those of one")
     fitting.set_defaults(run=run_fit)
+    differing = commands.add_parser("fit_difference", help="of two poses that may make the same object")
+    differing.add_argument("--fit", nargs="+", required=True, metavar="JSON")
+    differing.add_argument("--check", nargs="+", required=True, metavar="JSON", help="of other objects")
+    differing.add_argument("--header", help="written: src/alignment/difference_weights.h")
+    differing.add_argument("--strength", type=float, default=1.0, help="of the penalty")
+    differing.set_defaults(run=run_fit_difference)
     reporting = commands.add_parser("report")
     reporting.add_argument("json", nargs="+")
     reporting.add_argument("--failures", action="store_true", help="also every wrong and every refused pair")

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include <Eigen/Geometry>
+
+#include "object_modelling/registration/matched_surface.h"
+
+namespace object_modelling::alignment
+{
+/// What the motion from one pose of a pair to another does to the surface that both sessions saw. If it brings all of
+/// it onto itself, in shape and print, both poses make the same object.
+struct ObjectDifference
+{
+  double stray_ratio = 0;     ///< of the points of one session, those moved to where views saw that nothing is
+  double unknown_ratio = 0;   ///< of all points, those moved to where nobody looked
+  double color_variance = 0;  ///< mean square of the differences of the colours of points that meet
+};
+
+/// Over all points of both sessions, moved forward and back; of the four shares of strays the largest.
+ObjectDifference differenceOf(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
+                              const Eigen::Isometry3f& T_a_b_best, const Eigen::Isometry3f& T_a_b_rival);
+
+/// What speaks against two poses making the same object, each on a scale on which it adds up.
+enum class DifferenceFeature
+{
+  STRAY,   ///< logarithm of the share of strays
+  PRINT,   ///< logarithm of the colours' difference
+  RIVALRY  ///< by how much the log odds of the rival are below those of the best: what is the same scores alike
+};
+constexpr std::size_t DIFFERENCE_FEATURE_COUNT = 3;
+using DifferenceFeatures = std::array<double, DIFFERENCE_FEATURE_COUNT>;
+
+/// "stray", "print" or "rivalry".
+const char* nameOf(DifferenceFeature feature);
+
+/// `log_odds_gap`: of the best pose minus the rival.
+DifferenceFeatures featuresOf(const ObjectDifference& difference, double log_odds_gap);
+
+/// Where more than that is moved to where nobody looked, nobody knows.
+constexpr double MAX_UNKNOWN_RATIO = 0.15;
+
+/// Probability that the rival makes the same object as the best pose, given that the best one is right
+/// (docs/alignment.md tells how its weights were learnt); 0 beyond MAX_UNKNOWN_RATIO.
+double sameObjectProbability(const ObjectDifference& difference, double log_odds_gap);
+
+}  // namespace object_modelling::alignment

@@ -1,0 +1,125 @@
+#include "object_modelling/alignment/object_difference.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "difference_weights.h"
+#include "object_modelling/registration/pair_measure.h"
+
+namespace object_modelling::alignment
+{
+namespace
+{
+static_assert(std::size(DIFFERENCE_WEIGHTS) == DIFFERENCE_FEATURE_COUNT);
+
+constexpr double SAME_SHAPE_SPACINGS = 1.5;  // distance of surfaces that are the same
+constexpr float SAME_SIDE_COSINE = 0.5F;
+constexpr double FREE_STRAY_RATIO = 0.005;  // less is noise
+constexpr double COLOR_VARIANCE = 0.002;    // of colours of one surface, at least
+constexpr double MOST_GAP = 7;              // further below the best one, a pose hardly counts
+
+/// What becomes of the points of one part.
+struct Moved
+{
+  double stray = 0, unknown = 0, met = 0, squares = 0;
+};
+
+/// Point of a part that a moved point comes to lie on; -1 if it lies on none.
+int metBy(const registration::MatchedSurface& part, const Eigen::Vector3f& p, const Eigen::Vector3f& n, float reach_m)
+{
+  const int j = part.fine.nearest(p);
+  if (j < 0)
+    return -1;
+  const Eigen::Vector3f off = p - part.model.points[j];
+  const bool beside =
+      std::abs(part.model.normals[j].dot(off)) <= reach_m && part.model.normals[j].dot(n) > SAME_SIDE_COSINE;
+  return beside || off.norm() <= reach_m ? j : -1;
+}
+
+/// Moves the points of a part by `T` in its own frame.
+Moved move(const registration::MatchedSurface& part, const registration::MatchedSurface& other,
+           const Eigen::Isometry3f& T_other_part, const Eigen::Isometry3f& T)
+{
+  const auto reach_m = static_cast<float>(SAME_SHAPE_SPACINGS * std::max(part.model.spacing_m, other.model.spacing_m));
+  Moved result;
+  for (const int i : part.fine_samples)
+  {
+    const Eigen::Vector3f p = T * part.model.points[i], n = T.linear() * part.model.normals[i];
+    const Eigen::Vector3f p_other = T_other_part * p;
+    const registration::MatchedSurface* met = &part;
+    int j = metBy(part, p, n, reach_m);
+    if (j < 0)
+    {
+      met = &other;
+      j = metBy(other, p_other, T_other_part.linear() * n, reach_m);
+    }
+    if (j >= 0)
+    {
+      result.met += 1;
+      result.squares += (met->blurred_colors[j] - part.blurred_colors[i]).squaredNorm();
+    }
+    else if (registration::seenThrough(part.model.views, p) || registration::seenThrough(other.model.views, p_other))
+      result.stray += 1;
+    else
+      result.unknown += 1;
+  }
+  return result;
+}
+}  // namespace
+
+ObjectDifference differenceOf(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
+                              const Eigen::Isometry3f& T_a_b_best, const Eigen::Isometry3f& T_a_b_rival)
+{
+  const Eigen::Isometry3f T_b_a_best = T_a_b_best.inverse(), T_b_a_rival = T_a_b_rival.inverse();
+  ObjectDifference result;
+  double count = 0, unknown = 0, met = 0, squares = 0;
+  const auto add = [&](const registration::MatchedSurface& part, const Moved& moved)
+  {
+    const auto all = static_cast<double>(part.fine_samples.size());
+    count += all;
+    unknown += moved.unknown;
+    met += moved.met;
+    squares += moved.squares;
+    result.stray_ratio = std::max(result.stray_ratio, moved.stray / std::max(1.0, all));
+  };
+  add(b, move(b, a, T_a_b_best, T_b_a_best * T_a_b_rival));
+  add(b, move(b, a, T_a_b_best, T_b_a_rival * T_a_b_best));
+  add(a, move(a, b, T_b_a_best, T_a_b_best * T_b_a_rival));
+  add(a, move(a, b, T_b_a_best, T_a_b_rival * T_b_a_best));
+  result.unknown_ratio = unknown / std::max(1.0, count);
+  result.color_variance = squares / std::max(1.0, met);
+  return result;
+}
+
+const char* nameOf(DifferenceFeature feature)
+{
+  switch (feature)
+  {
+    case DifferenceFeature::STRAY:
+      return "stray";
+    case DifferenceFeature::PRINT:
+      return "print";
+    case DifferenceFeature::RIVALRY:
+      break;
+  }
+  return "rivalry";
+}
+
+DifferenceFeatures featuresOf(const ObjectDifference& difference, double log_odds_gap)
+{
+  return { std::log(difference.stray_ratio + FREE_STRAY_RATIO), std::log(difference.color_variance + COLOR_VARIANCE),
+           std::min(log_odds_gap, MOST_GAP) };
+}
+
+double sameObjectProbability(const ObjectDifference& difference, double log_odds_gap)
+{
+  if (difference.unknown_ratio > MAX_UNKNOWN_RATIO)
+    return 0;
+  const DifferenceFeatures features = featuresOf(difference, log_odds_gap);
+  double log_odds = DIFFERENCE_BIAS;
+  for (std::size_t i = 0; i < features.size(); ++i)
+    log_odds += DIFFERENCE_WEIGHTS[i] * features[i];
+  return 1 / (1 + std::exp(-log_odds));
+}
+
+}  // namespace object_modelling::alignment
