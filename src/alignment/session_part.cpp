@@ -10,6 +10,7 @@
 #include "object_modelling/features/keyframe_features.h"
 #include "object_modelling/fusion/cloud_fusion.h"
 #include "object_modelling/registration/invariant_colors.h"
+#include "object_modelling/rgbd/keyframe_view.h"
 
 namespace object_modelling::alignment
 {
@@ -111,9 +112,9 @@ registration::PartialModel makePartialModel(const keyframes::Session& session,
                                   " keyframes: select the object (segmenter) before aligning");
   fusion::CloudFusionOptions fusion_options;
   fusion_options.resolution_m = options.spacing_m;
-  fusion_options.color_offset_px = session.calibration.color_offset_px;
   base::JobControl silent;
-  const fusion::CloudFusionResult fused = fusion::fuse(keyframes, fusion_options, silent);
+  const fusion::CloudFusionResult fused =
+      fusion::fuse(rgbd::viewsOf(keyframes, session.calibration.color_offset_px), fusion_options, silent);
   control.checkCancelled();
   if (!fused.status.ok())
     throw nothing(session.id, "cannot be aligned: " + fused.status.message);

@@ -41,25 +41,29 @@ bool sampled(const rgbd::Frame& frame, int u, int v, bool object_only)
 
 double predictedOverlap(const rgbd::Keyframe& a, const rgbd::Keyframe& b, const KeyframeLinkerOptions& options)
 {
-  const rgbd::Frame& frame = a.frame;
-  const geometry::PinholeCamera& camera_b = b.frame.camera;
-  if (frame.depth_m.empty() || b.frame.depth_m.empty() ||
-      (options.object_only && (frame.object_mask.empty() || b.frame.object_mask.empty())))
+  return predictedOverlap(a.frame, b.frame, b.T_session_camera.inverse() * a.T_session_camera, options);
+}
+
+double predictedOverlap(const rgbd::Frame& a, const rgbd::Frame& b, const Eigen::Isometry3d& T_b_a,
+                        const KeyframeLinkerOptions& options)
+{
+  const geometry::PinholeCamera& camera_b = b.camera;
+  if (a.depth_m.empty() || b.depth_m.empty() ||
+      (options.object_only && (a.object_mask.empty() || b.object_mask.empty())))
     return 0;
-  const Eigen::Isometry3d T_b_a = b.T_session_camera.inverse() * a.T_session_camera;
   const Eigen::Vector3d centre_a_in_b = T_b_a.translation();
   const double min_cosine = std::cos(options.max_view_angle_rad);
   const int step = options.object_only ? SAMPLE_STEP_PX / 3 : SAMPLE_STEP_PX;
   int count = 0;
   double seen = 0;
-  for (int v = step / 2; v < frame.depth_m.rows; v += step)
+  for (int v = step / 2; v < a.depth_m.rows; v += step)
   {
-    for (int u = step / 2; u < frame.depth_m.cols; u += step)
+    for (int u = step / 2; u < a.depth_m.cols; u += step)
     {
-      if (!sampled(frame, u, v, options.object_only))
+      if (!sampled(a, u, v, options.object_only))
         continue;
       ++count;
-      const Eigen::Vector3d p_b = T_b_a * frame.point(u, v).cast<double>();
+      const Eigen::Vector3d p_b = T_b_a * a.point(u, v).cast<double>();
       if (!(p_b.z() > 0.05))
         continue;
       const Eigen::Vector2d pixel = camera_b.project(p_b);
@@ -68,7 +72,7 @@ double predictedOverlap(const rgbd::Keyframe& a, const rgbd::Keyframe& b, const 
         continue;
       if (camera_b.contains(pixel))
       {
-        const float z = b.frame.depthAt_m(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
+        const float z = b.depthAt_m(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
         if (std::abs(z - p_b.z()) > DEPTH_RATIO * p_b.z())
           continue;
       }

@@ -16,7 +16,8 @@ namespace object_modelling::cli
 nlohmann::json toJson(const base::Status& status);
 nlohmann::json toJson(const pipeline::RecordReport& report);
 nlohmann::json toJson(const bundle_adjustment::BundleAdjustmentResult& result);
-nlohmann::json toJson(const multi_view_icp::MultiViewIcpResult& result);
+/// `keyframe_ids`: of the views.
+nlohmann::json toJson(const multi_view_icp::MultiViewIcpResult& result, const std::vector<int>& keyframe_ids);
 /// As of bundle adjustment where that took part, with what multi-view ICP says under "multi_view_icp".
 nlohmann::json toJson(const pipeline::SessionRefinement& refined);
 nlohmann::json toJson(const pipeline::SegmentReport& report);

@@ -31,7 +31,7 @@ constexpr int JPEG_QUALITY = 95;
 
 void checkView(const ObjectModel& model, std::size_t index)
 {
-  const rgbd::Keyframe& view = model.views[index];
+  const rgbd::View& view = model.views[index];
   const rgbd::Frame& frame = view.frame;
   const cv::Size size(frame.camera.width, frame.camera.height);
   const bool images = frame.color_bgr.type() == CV_8UC3 && frame.depth_m.type() == CV_32FC1 &&
@@ -40,7 +40,7 @@ void checkView(const ObjectModel& model, std::size_t index)
       frame.object_mask.empty() || (frame.object_mask.type() == CV_8UC1 && frame.object_mask.size() == size);
   if (!images || !mask || size.area() == 0)
     refuse(model, "colour, depth, mask and camera of view " + std::to_string(index) + " do not fit together");
-  if (!view.T_session_camera.matrix().allFinite())
+  if (!view.T_world_camera.matrix().allFinite())
     refuse(model, "the pose of view " + std::to_string(index) + " is not finite");
 }
 
@@ -83,13 +83,13 @@ std::string indicesText(const rgbd::Frame& frame)
 }
 
 /// V4R's layout: one set of files per view, numbered from 0.
-void writeView(const std::string& folder, std::size_t index, const rgbd::Keyframe& view)
+void writeView(const std::string& folder, std::size_t index, const rgbd::View& view)
 {
   std::array<char, 32> number{};
   std::snprintf(number.data(), number.size(), "%08zu", index);
   const std::string id = number.data();
   writeOrganisedCloud(folder + "/cloud_" + id + ".pcd", view.frame);
-  writeText(folder + "/pose_" + id + ".txt", poseText(view.T_session_camera));
+  writeText(folder + "/pose_" + id + ".txt", poseText(view.T_world_camera));
   writeText(folder + "/object_indices_" + id + ".txt", indicesText(view.frame));
   writeImage(folder + "/image_" + id + ".jpg", view.frame.color_bgr, { cv::IMWRITE_JPEG_QUALITY, JPEG_QUALITY });
 }

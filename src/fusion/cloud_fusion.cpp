@@ -7,8 +7,8 @@
 #include "object_modelling/base/options.h"
 #include "observation.h"
 #include "observation_grid.h"
+#include "prepared_view.h"
 #include "surfel_fit.h"
-#include "view.h"
 
 namespace object_modelling::fusion
 {
@@ -25,7 +25,8 @@ CloudFusionResult nothing(const std::string& step, const std::string& remedy)
 
 /// What other views see through, what fewer than min_views uphold, and what more views hold for background than for the
 /// object (the rim of the table that one mask or another includes), goes.
-void removeContradicted(const std::vector<View>& views, const CloudFusionOptions& options, std::vector<Surfel>* surfels)
+void removeContradicted(const std::vector<PreparedView>& views, const CloudFusionOptions& options,
+                        std::vector<Surfel>* surfels)
 {
   std::vector<char> keep(surfels->size(), 0);
 #pragma omp parallel for schedule(dynamic, 256)
@@ -57,30 +58,29 @@ std::vector<std::string> CloudFusionOptions::violations() const
   check.inRange("consistency_sigmas", consistency_sigmas, 1.0, 10.0);
   check.atLeast("min_views", min_views, 1);
   check.include(weight.violations());
-  check.require("color_offset_px", color_offset_px.allFinite(), "must be finite");
   return check.violations();
 }
 
-CloudFusionResult fuse(const std::vector<rgbd::Keyframe>& keyframes, const CloudFusionOptions& options,
+CloudFusionResult fuse(const std::vector<rgbd::View>& views, const CloudFusionOptions& options,
                        base::JobControl& control)
 {
   base::checked(options);
   control.report("fuse", 0, STAGES);
   std::vector<int> with_object;
-  for (std::size_t i = 0; i < keyframes.size(); ++i)
+  for (std::size_t i = 0; i < views.size(); ++i)
   {
-    if (hasObject(keyframes[i].frame))
+    if (hasObject(views[i].frame))
       with_object.push_back(static_cast<int>(i));
   }
   if (with_object.empty())
-    return nothing("none of the " + std::to_string(keyframes.size()) + " keyframes has an object mask",
+    return nothing("none of the " + std::to_string(views.size()) + " keyframes has an object mask",
                    "segment the object first");
 
-  const std::vector<View> views = prepareViews(keyframes);
-  std::vector<std::vector<Observation>> observations(keyframes.size());
+  const std::vector<PreparedView> prepared = prepareViews(views);
+  std::vector<std::vector<Observation>> observations(views.size());
 #pragma omp parallel for schedule(dynamic)
   for (int k = 0; k < static_cast<int>(with_object.size()); ++k)
-    observations[with_object[k]] = collectObservations(keyframes[with_object[k]], with_object[k], options);
+    observations[with_object[k]] = collectObservations(views[with_object[k]], with_object[k], options);
   std::size_t total = 0;
   for (const auto& of_view : observations)
     total += of_view.size();
@@ -90,25 +90,25 @@ CloudFusionResult fuse(const std::vector<rgbd::Keyframe>& keyframes, const Cloud
 
   control.report("fuse", 1, STAGES);
   CloudFusionResult result;
-  result.observations_inconsistent = removeSeenThrough(views, options.consistency_sigmas, &observations);
+  result.observations_inconsistent = removeSeenThrough(prepared, options.consistency_sigmas, &observations);
   result.observations_used = total - result.observations_inconsistent;
   if (result.observations_used == 0)
     return nothing("every observation is contradicted by other views", "check the poses of the keyframes");
 
   control.report("fuse", 2, STAGES);
   const ObservationGrid grid(observations, static_cast<float>(options.resolution_m));
-  std::vector<Surfel> surfels = fuseSurface(grid, options, static_cast<int>(keyframes.size()));
+  std::vector<Surfel> surfels = fuseSurface(grid, options, static_cast<int>(views.size()));
   if (surfels.empty())
     return nothing("no surface is seen by min_views = " + std::to_string(options.min_views) + " keyframes",
                    "record more views, or lower min_views");
 
   control.report("fuse", 3, STAGES);
-  removeContradicted(views, options, &surfels);
+  removeContradicted(prepared, options, &surfels);
   if (surfels.empty())
     return nothing("every fused point is contradicted by other views or masks", "check poses and masks");
 
   control.report("fuse", 4, STAGES);
-  result.cloud.colors = colourSurfels(views, surfels, options.consistency_sigmas, options.color_offset_px);
+  result.cloud.colors = colourSurfels(prepared, surfels, options.consistency_sigmas);
   for (const Surfel& surfel : surfels)
   {
     result.cloud.points.push_back(surfel.point);

@@ -24,16 +24,16 @@ struct Sample
   Eigen::Vector3f rgb = Eigen::Vector3f::Zero();
 };
 
-std::vector<Sample> bestSamples(const std::vector<View>& views, const std::vector<cv::Mat>& rim_distances_px,
-                                const Surfel& surfel, double consistency_sigmas, const Eigen::Vector2f& color_offset_px)
+std::vector<Sample> bestSamples(const std::vector<PreparedView>& views, const std::vector<cv::Mat>& rim_distances_px,
+                                const Surfel& surfel, double consistency_sigmas)
 {
   std::vector<Sample> samples;
   for (int i = 0; i < static_cast<int>(views.size()); ++i)
   {
-    const View& view = views[i];
+    const PreparedView& view = views[i];
     if (rim_distances_px[i].empty())
       continue;
-    const Eigen::Vector3f to_camera = view.p_session_camera - surfel.point;
+    const Eigen::Vector3f to_camera = view.p_world_camera - surfel.point;
     const float cosine = surfel.normal.dot(to_camera) / to_camera.norm();
     if (!(cosine > 0))
       continue;
@@ -51,7 +51,7 @@ std::vector<Sample> bestSamples(const std::vector<View>& views, const std::vecto
     sample.weight =
         std::pow(std::max(cosine, MIN_COSINE), 2.f) / (at.z_m * at.z_m) * std::min(1.f, rim_px / FULL_RIM_DISTANCE);
     sample.rgb =
-        geometry::colorAt(view.frame->color_bgr, Eigen::Vector2f(at.u_px, at.v_px) + color_offset_px).reverse();
+        geometry::colorAt(view.frame->color_bgr, Eigen::Vector2f(at.u_px, at.v_px) + view.color_offset_px).reverse();
     samples.push_back(sample);
   }
   std::stable_sort(samples.begin(), samples.end(),
@@ -111,10 +111,9 @@ std::vector<Eigen::Vector3f> estimateGains(const std::vector<std::vector<Sample>
 
 }  // namespace
 
-std::vector<Eigen::Matrix<std::uint8_t, 3, 1>> colourSurfels(const std::vector<View>& views,
+std::vector<Eigen::Matrix<std::uint8_t, 3, 1>> colourSurfels(const std::vector<PreparedView>& views,
                                                              const std::vector<Surfel>& surfels,
-                                                             double consistency_sigmas,
-                                                             const Eigen::Vector2d& color_offset_px)
+                                                             double consistency_sigmas)
 {
   std::vector<cv::Mat> rim_distances_px(views.size());
 #pragma omp parallel for schedule(dynamic)
@@ -126,7 +125,7 @@ std::vector<Eigen::Matrix<std::uint8_t, 3, 1>> colourSurfels(const std::vector<V
   std::vector<std::vector<Sample>> samples(surfels.size());
 #pragma omp parallel for schedule(dynamic, 256)
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(surfels.size()); ++i)
-    samples[i] = bestSamples(views, rim_distances_px, surfels[i], consistency_sigmas, color_offset_px.cast<float>());
+    samples[i] = bestSamples(views, rim_distances_px, surfels[i], consistency_sigmas);
 
   const std::vector<Eigen::Vector3f> gains = estimateGains(samples, views.size());
   std::vector<Eigen::Matrix<std::uint8_t, 3, 1>> colors(surfels.size());

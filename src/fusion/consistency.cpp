@@ -9,7 +9,7 @@ namespace object_modelling::fusion
 {
 namespace
 {
-bool seesThrough(const View& view, const Eigen::Vector3f& point, float tolerance_m)
+bool seesThrough(const PreparedView& view, const Eigen::Vector3f& point, float tolerance_m)
 {
   const Projection at = project(view, point);
   if (!at.inside)
@@ -20,7 +20,8 @@ bool seesThrough(const View& view, const Eigen::Vector3f& point, float tolerance
 
 }  // namespace
 
-Votes castVotes(const std::vector<View>& views, const SurfacePoint& surface, double consistency_sigmas, int own_view)
+Votes castVotes(const std::vector<PreparedView>& views, const SurfacePoint& surface, double consistency_sigmas,
+                int own_view)
 {
   // Every observation asks the views: of long sessions some, evenly, are enough to tell.
   constexpr int MAX_VOTERS = 64;
@@ -31,7 +32,7 @@ Votes castVotes(const std::vector<View>& views, const SurfacePoint& surface, dou
     const int i = voter * count / voters;
     if (i == own_view)
       continue;
-    const View& view = views[i];
+    const PreparedView& view = views[i];
     const Projection at = project(view, surface.point);
     if (!at.inside)
       continue;
@@ -45,7 +46,7 @@ Votes castVotes(const std::vector<View>& views, const SurfacePoint& surface, dou
       continue;
     }
     const float depth_m = view.frame->depth_m.at<float>(at.row, at.column);
-    const bool facing = surface.normal.dot(view.p_session_camera - surface.point) > 0;
+    const bool facing = surface.normal.dot(view.p_world_camera - surface.point) > 0;
     if (!facing || rgbd::visibilityOf(at.z_m, depth_m, tolerance_m) != rgbd::Visibility::ON)
       continue;
     ++votes.same;
@@ -55,7 +56,7 @@ Votes castVotes(const std::vector<View>& views, const SurfacePoint& surface, dou
   return votes;
 }
 
-std::size_t removeSeenThrough(const std::vector<View>& views, double consistency_sigmas,
+std::size_t removeSeenThrough(const std::vector<PreparedView>& views, double consistency_sigmas,
                               std::vector<std::vector<Observation>>* observations_per_view)
 {
   std::vector<std::size_t> removed(views.size(), 0);
@@ -65,7 +66,7 @@ std::size_t removeSeenThrough(const std::vector<View>& views, double consistency
     std::vector<Observation>& observations = (*observations_per_view)[i];
     const auto outvoted = [&](const Observation& observation)
     {
-      const Eigen::Vector3f ray = (observation.point - views[i].p_session_camera).normalized();
+      const Eigen::Vector3f ray = (observation.point - views[i].p_world_camera).normalized();
       const auto reach_m = static_cast<float>(consistency_sigmas) * observation.axial_sigma_m;
       const SurfacePoint surface{ observation.point, observation.normal, observation.point + reach_m * ray,
                                   observation.axial_sigma_m };

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "observation.h"
-#include "view.h"
+#include "prepared_view.h"
 
 namespace object_modelling::fusion
 {
@@ -31,11 +31,11 @@ struct SurfacePoint
 /// Views that look at the point from behind its normal have a say only if they see through it. A view sees through only
 /// if it does so all the way to `farthest`: else noise that moves a point off the object's silhouette would be cut off
 /// on the outside and left on the inside, and the object would shrink.
-Votes castVotes(const std::vector<View>& views, const SurfacePoint& surface, double consistency_sigmas,
+Votes castVotes(const std::vector<PreparedView>& views, const SurfacePoint& surface, double consistency_sigmas,
                 int own_view = -1);
 
 /// Removes the observations that other views see through, more of them than uphold them; returns how many went.
-std::size_t removeSeenThrough(const std::vector<View>& views, double consistency_sigmas,
+std::size_t removeSeenThrough(const std::vector<PreparedView>& views, double consistency_sigmas,
                               std::vector<std::vector<Observation>>* observations_per_view);
 
 }  // namespace object_modelling::fusion

@@ -49,11 +49,10 @@ cv::Mat smoothed(const cv::Mat& depth_m)
 
 }  // namespace
 
-std::vector<Observation> collectObservations(const rgbd::Keyframe& keyframe, int view,
-                                             const CloudFusionOptions& options)
+std::vector<Observation> collectObservations(const rgbd::View& view, int index, const CloudFusionOptions& options)
 {
   cv::Rect roi;
-  rgbd::Frame crop = cropToMask(keyframe.frame, &roi);
+  rgbd::Frame crop = cropToMask(view.frame, &roi);
   // Depth edges as the sensor saw them; normals of the object alone, or its rim leans towards what it touches.
   cv::Mat edges = rgbd::findDepthEdges(crop);
   cv::Mat object_depth_m(crop.depth_m.size(), CV_32FC1, cv::Scalar(std::numeric_limits<float>::quiet_NaN()));
@@ -64,7 +63,7 @@ std::vector<Observation> collectObservations(const rgbd::Keyframe& keyframe, int
 
   const rgbd::SensorNoiseModel& noise_model = crop.noise_model;
   const cv::Mat smooth_depth_m = smoothed(crop.depth_m);
-  const Eigen::Isometry3f T_session_camera = keyframe.T_session_camera.cast<float>();
+  const Eigen::Isometry3f T_world_camera = view.T_world_camera.cast<float>();
   std::vector<Observation> observations;
   for (int v = 0; v < roi.height; ++v)
   {
@@ -80,10 +79,10 @@ std::vector<Observation> collectObservations(const rgbd::Keyframe& keyframe, int
       const double theta_rad = std::acos(cosine);
 
       Observation observation;
-      observation.point = T_session_camera * point;
-      observation.normal = T_session_camera.linear() * normal;
+      observation.point = T_world_camera * point;
+      observation.normal = T_world_camera.linear() * normal;
       observation.weight = weight;
-      observation.view = view;
+      observation.view = index;
       const double z_m = smooth_depth_m.at<float>(v, u);
       observation.axial_sigma_m = static_cast<float>(noise_model.axialSigma_m(z_m, theta_rad));
       observation.lateral_sigma_m = static_cast<float>(noise_model.lateralSigma_m(z_m, theta_rad, crop.camera.fx));

@@ -5,11 +5,11 @@
 #include <Eigen/Core>
 
 #include "object_modelling/fusion/cloud_fusion.h"
-#include "object_modelling/rgbd/keyframe.h"
+#include "object_modelling/rgbd/view.h"
 
 namespace object_modelling::fusion
 {
-/// One pixel's measurement of the object's surface, in the session frame.
+/// One pixel's measurement of the object's surface, in the world.
 struct Observation
 {
   Eigen::Vector3f point, normal;
@@ -17,15 +17,14 @@ struct Observation
   float axial_sigma_m = 0;  ///< along the viewing ray
   float sigma_m = 0;        ///< along the normal: axial and lateral noise together
   float lateral_sigma_m = 0;
-  int view = 0;  ///< index of the keyframe
+  int view = 0;  ///< index
 
   /// What a weighted mean weighs it by.
   float information() const { return weight / (sigma_m * sigma_m); }
 };
 
-/// What the masked pixels of a keyframe saw, in the order of the pixels; without those whose noise weight is below
+/// What the masked pixels of a view saw, in the order of the pixels; without those whose noise weight is below
 /// min_weight.
-std::vector<Observation> collectObservations(const rgbd::Keyframe& keyframe, int view,
-                                             const CloudFusionOptions& options);
+std::vector<Observation> collectObservations(const rgbd::View& view, int index, const CloudFusionOptions& options);
 
 }  // namespace object_modelling::fusion

@@ -16,7 +16,7 @@ struct Surfel
   float radius_m = 0;  ///< that it averages over
   float weight = 0;    ///< sum of the noise weights that went in
   float sigma_m = 0;   ///< of the position along the normal
-  int views = 0;       ///< distinct keyframes that went in
+  int views = 0;       ///< distinct views that went in
 };
 
 /// The mean of each cell's observations, one for each direction that they face, so that the two sides of a thin wall

@@ -17,7 +17,7 @@ constexpr double CONVERGED_STEP_M = 2e-5;     // of points at the usual distance
 constexpr double STABLE_RATIO = 0.003;        // change of the error, over ...
 constexpr std::size_t STABLE_ITERATIONS = 4;  // ... as many: what still moves is held by next to nothing
 constexpr double LEVER_M = 0.7;               // usual distance from camera to surface
-constexpr double MIN_FITTING_RATIO = 0.35;    // of the points in view; fewer, and the keyframe does not fit
+constexpr double MIN_FITTING_RATIO = 0.35;    // of the points in view; fewer, and the view does not fit
 constexpr int MAX_TRIALS = 6;                 // of the damping
 
 std::vector<IcpStage> stagesOf(const MultiViewIcpOptions& options)
@@ -36,14 +36,14 @@ std::vector<IcpStage> stagesOf(const MultiViewIcpOptions& options)
   }
   stages.push_back({ 0, std::cos(options.max_normal_angle_rad), 0, 1 });
   for (IcpStage& stage : stages)
-    stage.rims = options.bodies.empty();
+    stage.rims = !options.sessions_as_bodies;
   return stages;
 }
 
 /// How far a motion of a camera, on the left of its pose, moves what it sees.
-double displacement_m(const geometry::Vector6d& motion, const Eigen::Isometry3d& T_session_camera)
+double displacement_m(const geometry::Vector6d& motion, const Eigen::Isometry3d& T_world_camera)
 {
-  const Eigen::Vector3d seen = T_session_camera * Eigen::Vector3d(0, 0, LEVER_M);
+  const Eigen::Vector3d seen = T_world_camera * Eigen::Vector3d(0, 0, LEVER_M);
   return (geometry::isometryFromVector(motion) * seen - seen).norm() + 0.1 * motion.tail<3>().norm();
 }
 
@@ -59,10 +59,10 @@ public:
   /// One step that lowers the cost, 0 if there is none.
   IcpStep step()
   {
-    const std::vector<PairEquations> equations = problem_.equations(outcome_.T_session_camera);
+    const std::vector<PairEquations> equations = problem_.equations(outcome_.T_world_camera);
     std::vector<geometry::Matrix6d> noise;
     if (few_bodies_)
-      noise = problem_.noise(outcome_.T_session_camera);
+      noise = problem_.noise(outcome_.T_world_camera);
     double cost = 0;
     for (const PairEquations& pair : equations)
       cost += pair.cost;
@@ -72,7 +72,7 @@ public:
                                          : solveResisted(equations, noise, outcome_.members, bodies_, damping_);
       if (motions)
       {
-        std::vector<Eigen::Isometry3d> moved = outcome_.T_session_camera;
+        std::vector<Eigen::Isometry3d> moved = outcome_.T_world_camera;
         IcpStep largest;
         for (const int k : outcome_.members)
         {
@@ -84,7 +84,7 @@ public:
         }
         if (problem_.cost(moved) <= cost)
         {
-          outcome_.T_session_camera = std::move(moved);
+          outcome_.T_world_camera = std::move(moved);
           damping_ = std::max(1e-6, damping_ / 5);
           return largest;
         }
@@ -128,20 +128,20 @@ int misfit(const IcpProblem& problem, const std::vector<int>& members)
 }
 }  // namespace
 
-IcpOutcome runIcp(const std::vector<rgbd::Keyframe>& keyframes, const MultiViewIcpOptions& options, IcpProblem* problem,
+IcpOutcome runIcp(const std::vector<rgbd::View>& views, const MultiViewIcpOptions& options, IcpProblem* problem,
                   base::JobControl* control)
 {
   IcpOutcome outcome;
   std::vector<Eigen::Isometry3d> start;
-  for (const rgbd::Keyframe& keyframe : keyframes)
-    start.push_back(keyframe.T_session_camera);
-  outcome.T_session_camera = start;
-  const std::vector<int> bodies = bodiesOf(options, keyframes.size());
-  outcome.members = connectedKeyframes(bodies, problem->edges());
+  for (const rgbd::View& view : views)
+    start.push_back(view.T_world_camera);
+  outcome.T_world_camera = start;
+  const std::vector<int> bodies = bodiesOf(views, options);
+  outcome.members = connectedViews(bodies, problem->edges());
   if (outcome.members.empty())
     return outcome;
   const std::vector<IcpStage> stages = stagesOf(options);
-  Solver solver(bodies, !options.bodies.empty(), problem, &outcome);
+  Solver solver(bodies, options.sessions_as_bodies, problem, &outcome);
   IcpOutcome best;  // of the last gate, by error
   const auto refine = [&](const IcpStage& stage)
   {
@@ -152,10 +152,10 @@ IcpOutcome runIcp(const std::vector<rgbd::Keyframe>& keyframes, const MultiViewI
       control->report("multi-view icp", outcome.rmse_m.size(), static_cast<std::size_t>(options.max_iterations));
       if (outcome.rmse_m.size() >= static_cast<std::size_t>(options.max_iterations))
         break;
-      problem->match(outcome.T_session_camera, stage);
+      problem->match(outcome.T_world_camera, stage);
       outcome.last_step = solver.step();
       const double step_m = outcome.last_step.moved_m;
-      outcome.rmse_m.push_back(rmseOf(problem->errors(outcome.T_session_camera, outcome.T_session_camera)));
+      outcome.rmse_m.push_back(rmseOf(problem->errors(outcome.T_world_camera, outcome.T_world_camera)));
       outcome.converged = stage.gate_m == 0 && (step_m < CONVERGED_STEP_M || stable(outcome.rmse_m, first));
       if (stage.gate_m == 0 && (best.rmse_m.empty() || outcome.rmse_m.back() < best.rmse_m.back()))
         best = outcome;
@@ -165,22 +165,22 @@ IcpOutcome runIcp(const std::vector<rgbd::Keyframe>& keyframes, const MultiViewI
   };
   for (const IcpStage& stage : stages)
     refine(stage);
-  if (!options.bodies.empty() && !outcome.converged && !best.rmse_m.empty())
+  if (options.sessions_as_bodies && !outcome.converged && !best.rmse_m.empty())
   {
-    outcome.T_session_camera = best.T_session_camera;
+    outcome.T_world_camera = best.T_world_camera;
     outcome.last_step = best.last_step;
   }
   for (;;)
   {
-    problem->match(outcome.T_session_camera, stages.back());
+    problem->match(outcome.T_world_camera, stages.back());
     const int worst = misfit(*problem, outcome.members);
-    if (worst < 0 || !options.bodies.empty())  // one of a body stands or falls with the rest
+    if (worst < 0 || options.sessions_as_bodies)  // one of a body stands or falls with the rest
       break;
     problem->leaveOut(worst);
-    const std::vector<int> members = connectedKeyframes(bodies, problem->edges());
+    const std::vector<int> members = connectedViews(bodies, problem->edges());
     for (const int k : outcome.members)
       if (!std::binary_search(members.begin(), members.end(), k))
-        outcome.T_session_camera[k] = start[k];
+        outcome.T_world_camera[k] = start[k];
     outcome.members = members;
     if (members.empty())
       break;

@@ -25,15 +25,20 @@ std::vector<int> spread(const std::vector<int>& sorted, int count)
     chosen.push_back(sorted[nearest - 1 + i * (size - nearest) / (count - nearest)]);
   return chosen;
 }
+
+double overlapOf(const rgbd::View& a, const rgbd::View& b, const bundle_adjustment::KeyframeLinkerOptions& options)
+{
+  return bundle_adjustment::predictedOverlap(a.frame, b.frame, b.T_world_camera.inverse() * a.T_world_camera, options);
+}
 }  // namespace
 
-std::vector<IcpEdge> overlapGraph(const std::vector<rgbd::Keyframe>& keyframes, const MultiViewIcpOptions& options)
+std::vector<IcpEdge> overlapGraph(const std::vector<rgbd::View>& views, const MultiViewIcpOptions& options)
 {
   bundle_adjustment::KeyframeLinkerOptions prediction;
   prediction.object_only = options.object_only;
   prediction.max_view_angle_rad = options.max_view_angle_rad;
-  const int count = static_cast<int>(keyframes.size());
-  const std::vector<int> bodies = bodiesOf(options, keyframes.size());
+  const int count = static_cast<int>(views.size());
+  const std::vector<int> bodies = bodiesOf(views, options);
   Eigen::MatrixXd overlap = Eigen::MatrixXd::Zero(count, count);
   cv::parallel_for_(
       cv::Range(0, count),
@@ -42,7 +47,7 @@ std::vector<IcpEdge> overlapGraph(const std::vector<rgbd::Keyframe>& keyframes, 
         for (int a = range.start; a < range.end; ++a)
           for (int b = 0; b < count; ++b)
             if (bodies[a] != bodies[b])
-              overlap(a, b) = bundle_adjustment::predictedOverlap(keyframes[a], keyframes[b], prediction);
+              overlap(a, b) = overlapOf(views[a], views[b], prediction);
       },
       options.threads);
   return edgesBetweenPartners(overlap, options.min_overlap_ratio, options.max_partners);
@@ -70,12 +75,12 @@ std::vector<IcpEdge> edgesBetweenPartners(const Eigen::MatrixXd& ratio, double m
   return graph;
 }
 
-std::vector<int> bodiesOf(const MultiViewIcpOptions& options, std::size_t keyframe_count)
+std::vector<int> bodiesOf(const std::vector<rgbd::View>& views, const MultiViewIcpOptions& options)
 {
-  if (!options.bodies.empty())
-    return options.bodies;
-  std::vector<int> bodies(keyframe_count);
+  std::vector<int> bodies(views.size());
   std::iota(bodies.begin(), bodies.end(), 0);
+  for (std::size_t k = 0; k < views.size() && options.sessions_as_bodies; ++k)
+    bodies[k] = views[k].session_index;
   return bodies;
 }
 
@@ -92,7 +97,7 @@ std::vector<std::vector<int>> connectedSets(const std::vector<int>& bodies, cons
   return base::components(linked, 1);
 }
 
-std::vector<int> connectedKeyframes(const std::vector<int>& bodies, const std::vector<IcpEdge>& edges)
+std::vector<int> connectedViews(const std::vector<int>& bodies, const std::vector<IcpEdge>& edges)
 {
   std::vector<int> largest;
   for (std::vector<int>& set : connectedSets(bodies, edges))

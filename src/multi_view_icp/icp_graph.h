@@ -8,29 +8,29 @@
 
 namespace object_modelling::multi_view_icp
 {
-/// Two keyframes, by index, that see the same surface.
+/// Two views, by index, that see the same surface.
 struct IcpEdge
 {
   int a = -1, b = -1;  ///< a < b
   double overlap_ratio = 0;
 };
 
-/// Each keyframe with its best partners by predicted overlap, of another body. Ordered by (a, b).
-std::vector<IcpEdge> overlapGraph(const std::vector<rgbd::Keyframe>& keyframes, const MultiViewIcpOptions& options);
+/// Each view with its best partners by predicted overlap, of another body. Ordered by (a, b).
+std::vector<IcpEdge> overlapGraph(const std::vector<rgbd::View>& views, const MultiViewIcpOptions& options);
 
-/// Each keyframe with its best partners by `ratio`, which tells for (a, b) how much of b's surface a sees and counts as
+/// Each view with its best partners by `ratio`, which tells for (a, b) how much of b's surface a sees and counts as
 /// the smaller of both ways: half of them those that share most, half spread over the others, which hold the whole
 /// together better than neighbours alone do. Ordered by (a, b).
 std::vector<IcpEdge> edgesBetweenPartners(const Eigen::MatrixXd& ratio, double min_ratio, int max_partners);
 
-/// The sets of keyframes that the edges, and their bodies, connect; each ascending.
+/// The sets of views that the edges, and their bodies, connect; each ascending.
 std::vector<std::vector<int>> connectedSets(const std::vector<int>& bodies, const std::vector<IcpEdge>& edges);
 
-/// The largest of them that has keyframes of more than one body; empty if none has: nothing moves against anything
+/// The largest of them that has views of more than one body; empty if none has: nothing moves against anything
 /// then.
-std::vector<int> connectedKeyframes(const std::vector<int>& bodies, const std::vector<IcpEdge>& edges);
+std::vector<int> connectedViews(const std::vector<int>& bodies, const std::vector<IcpEdge>& edges);
 
-/// The bodies of the options; each keyframe one of its own if they name none.
-std::vector<int> bodiesOf(const MultiViewIcpOptions& options, std::size_t keyframe_count);
+/// Which body each view is of: its session's, or one of its own.
+std::vector<int> bodiesOf(const std::vector<rgbd::View>& views, const MultiViewIcpOptions& options);
 
 }  // namespace object_modelling::multi_view_icp

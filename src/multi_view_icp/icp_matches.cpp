@@ -174,7 +174,7 @@ void matchColors(const IcpView& a, const IcpView& b, const Eigen::Isometry3f& T_
     matches->color.clear();
     return;
   }
-  // Exposure differs from keyframe to keyframe: equal mean and spread over what both see.
+  // Exposure differs from view to view: equal mean and spread over what both see.
   const auto count = static_cast<double>(seen.size());
   const double variance_a = std::max(1.0, square_a / count - sum_a * sum_a / count / count);
   const double variance_b = std::max(1.0, square_b / count - sum_b * sum_b / count / count);

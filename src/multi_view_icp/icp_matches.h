@@ -15,13 +15,13 @@ struct IcpStage
   double gate_m = 0;  ///< errors of the poses move points by about as much; 0: noise alone
   double min_normal_cosine = 0;
   int color_level = 0;
-  int point_step = 1;  ///< every so many of a keyframe's points
+  int point_step = 1;  ///< every so many of a view's points
   /// Depth ends a little within the rim of an object. Of views from all sides these errors cancel; of an object that
   /// was turned over each session sees a rim from its own side, and is pulled one way.
   bool rims = true;
 };
 
-/// A point of keyframe b and the plane of keyframe a that it belongs to, each in its camera's frame.
+/// A point of view b and the plane of view a that it belongs to, each in its camera's frame.
 struct SurfaceMatch
 {
   Eigen::Vector3f p_b, p_a, n_a;
@@ -29,7 +29,7 @@ struct SurfaceMatch
   float sigma_m = 1;  ///< the same with what the poses may be off
 };
 
-/// A point of keyframe b, and its grey level as a's exposure shows it.
+/// A point of view b, and its grey level as a's exposure shows it.
 struct ColorMatch
 {
   Eigen::Vector3f p_b;

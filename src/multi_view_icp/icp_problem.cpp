@@ -28,27 +28,27 @@ void inParallel(int count, int threads, Body body)
 }
 }  // namespace
 
-IcpProblem::IcpProblem(const std::vector<rgbd::Keyframe>& keyframes, const MultiViewIcpOptions& options,
+IcpProblem::IcpProblem(const std::vector<rgbd::View>& views, const MultiViewIcpOptions& options,
                        std::vector<IcpEdge> edges, base::JobControl* control)
     : options_(options), edges_(std::move(edges))
 {
-  const int count = static_cast<int>(keyframes.size());
-  std::vector<std::optional<IcpView>> views(keyframes.size());
-  std::vector<std::optional<NearestPoints>> nearest(keyframes.size());
+  const int count = static_cast<int>(views.size());
+  std::vector<std::optional<IcpView>> prepared(views.size());
+  std::vector<std::optional<NearestPoints>> nearest(views.size());
   for (int begin = 0; begin < count; begin += BATCH)
   {
-    control->report("surfaces", static_cast<std::size_t>(begin), keyframes.size());
+    control->report("surfaces", static_cast<std::size_t>(begin), views.size());
     inParallel(std::min(BATCH, count - begin), options.threads,
                [&](int i)
                {
-                 views[begin + i].emplace(keyframes[begin + i].frame, options);
+                 prepared[begin + i].emplace(views[begin + i], options);
                  if (options.association == IcpAssociation::NEAREST)
-                   nearest[begin + i].emplace(*views[begin + i]);
+                   nearest[begin + i].emplace(*prepared[begin + i]);
                });
   }
   for (int k = 0; k < count; ++k)
   {
-    views_.push_back(std::move(*views[k]));
+    views_.push_back(std::move(*prepared[k]));
     if (nearest[k])
       nearest_.push_back(std::move(*nearest[k]));
   }
@@ -76,47 +76,47 @@ void IcpProblem::add(const std::vector<IcpEdge>& edges)
   matches_.clear();
 }
 
-void IcpProblem::leaveOut(int keyframe)
+void IcpProblem::leaveOut(int view)
 {
   edges_.erase(std::remove_if(edges_.begin(), edges_.end(),
-                              [&](const IcpEdge& edge) { return edge.a == keyframe || edge.b == keyframe; }),
+                              [&](const IcpEdge& edge) { return edge.a == view || edge.b == view; }),
                edges_.end());
   matches_.clear();
 }
 
-void IcpProblem::match(const std::vector<Eigen::Isometry3d>& T_session_camera, const IcpStage& stage)
+void IcpProblem::match(const std::vector<Eigen::Isometry3d>& T_world_camera, const IcpStage& stage)
 {
   matches_.assign(2 * edges_.size(), {});
   loss_.color_level = stage.color_level;
   forDirectedPairs(
       [&](int i, int a, int b)
       {
-        matches_[i] = matchViews(views_[a], views_[b], T_session_camera[a].inverse() * T_session_camera[b], stage,
+        matches_[i] = matchViews(views_[a], views_[b], T_world_camera[a].inverse() * T_world_camera[b], stage,
                                  nearest_.empty() ? nullptr : &nearest_[a]);
       });
 }
 
-double IcpProblem::cost(const std::vector<Eigen::Isometry3d>& T_session_camera) const
+double IcpProblem::cost(const std::vector<Eigen::Isometry3d>& T_world_camera) const
 {
   std::vector<double> costs(matches_.size(), 0);
   forDirectedPairs(
       [&](int i, int a, int b)
-      { costs[i] = icpCost(views_[a], matches_[i], T_session_camera[a].inverse() * T_session_camera[b], loss_); });
+      { costs[i] = icpCost(views_[a], matches_[i], T_world_camera[a].inverse() * T_world_camera[b], loss_); });
   double sum = 0;
   for (const double cost : costs)
     sum += cost;
   return sum;
 }
 
-std::vector<PairEquations> IcpProblem::equations(const std::vector<Eigen::Isometry3d>& T_session_camera) const
+std::vector<PairEquations> IcpProblem::equations(const std::vector<Eigen::Isometry3d>& T_world_camera) const
 {
   std::vector<IcpEquations> directed(matches_.size());
   forDirectedPairs(
       [&](int i, int a, int b)
       {
-        directed[i] = icpEquations(views_[a], matches_[i], T_session_camera[a].inverse() * T_session_camera[b], loss_);
-        // A motion of b in the session frame moves b's points in a's camera by the same, seen from there.
-        const geometry::Matrix6d to_camera = geometry::adjoint(T_session_camera[a].inverse());
+        directed[i] = icpEquations(views_[a], matches_[i], T_world_camera[a].inverse() * T_world_camera[b], loss_);
+        // A motion of b in the world moves b's points in a's camera by the same, seen from there.
+        const geometry::Matrix6d to_camera = geometry::adjoint(T_world_camera[a].inverse());
         directed[i].A = to_camera.transpose() * directed[i].A * to_camera;
         directed[i].g = to_camera.transpose() * directed[i].g;
       });
@@ -130,15 +130,15 @@ std::vector<PairEquations> IcpProblem::equations(const std::vector<Eigen::Isomet
   return pairs;
 }
 
-std::vector<geometry::Matrix6d> IcpProblem::noise(const std::vector<Eigen::Isometry3d>& T_session_camera) const
+std::vector<geometry::Matrix6d> IcpProblem::noise(const std::vector<Eigen::Isometry3d>& T_world_camera) const
 {
   std::vector<geometry::Matrix6d> directed(matches_.size());
   forDirectedPairs(
       [&](int i, int a, int b)
       {
-        const geometry::Matrix6d to_camera = geometry::adjoint(T_session_camera[a].inverse());
+        const geometry::Matrix6d to_camera = geometry::adjoint(T_world_camera[a].inverse());
         directed[i] = to_camera.transpose() *
-                      icpNoise(views_[a], matches_[i], T_session_camera[a].inverse() * T_session_camera[b], loss_) *
+                      icpNoise(views_[a], matches_[i], T_world_camera[a].inverse() * T_world_camera[b], loss_) *
                       to_camera;
       });
   std::vector<geometry::Matrix6d> pairs(edges_.size());
@@ -147,15 +147,15 @@ std::vector<geometry::Matrix6d> IcpProblem::noise(const std::vector<Eigen::Isome
   return pairs;
 }
 
-std::vector<IcpError> IcpProblem::errors(const std::vector<Eigen::Isometry3d>& T_session_camera,
-                                         const std::vector<Eigen::Isometry3d>& T_session_camera_weights) const
+std::vector<IcpError> IcpProblem::errors(const std::vector<Eigen::Isometry3d>& T_world_camera,
+                                         const std::vector<Eigen::Isometry3d>& T_world_camera_weights) const
 {
   std::vector<IcpError> directed(matches_.size());
   forDirectedPairs(
       [&](int i, int a, int b)
       {
-        directed[i] = icpError(matches_[i], T_session_camera[a].inverse() * T_session_camera[b],
-                               T_session_camera_weights[a].inverse() * T_session_camera_weights[b], loss_);
+        directed[i] = icpError(matches_[i], T_world_camera[a].inverse() * T_world_camera[b],
+                               T_world_camera_weights[a].inverse() * T_world_camera_weights[b], loss_);
       });
   std::vector<IcpError> pairs(edges_.size());
   for (std::size_t e = 0; e < edges_.size(); ++e)

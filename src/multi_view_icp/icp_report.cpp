@@ -31,8 +31,8 @@ geometry::Matrix6d withoutNoise(const geometry::Matrix6d& A, const geometry::Mat
   return U * kept.asDiagonal() * U.transpose();
 }
 
-/// Mean of what a keyframe sees, in the session frame.
-Eigen::Vector3d centreOf(const rgbd::Frame& frame, bool object_only, const Eigen::Isometry3d& T_session_camera)
+/// Mean of what a view sees, in the world.
+Eigen::Vector3d centreOf(const rgbd::Frame& frame, bool object_only, const Eigen::Isometry3d& T_world_camera)
 {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int count = 0;
@@ -46,24 +46,23 @@ Eigen::Vector3d centreOf(const rgbd::Frame& frame, bool object_only, const Eigen
       ++count;
     }
   }
-  return T_session_camera * Eigen::Vector3d(sum / std::max(1, count));
+  return T_world_camera * Eigen::Vector3d(sum / std::max(1, count));
 }
 
-FreeDirection directionOf(int keyframe_id, const Eigen::Vector3d& t, const Eigen::Vector3d& r,
-                          const Eigen::Vector3d& centre)
+FreeDirection directionOf(int view, const Eigen::Vector3d& t, const Eigen::Vector3d& r, const Eigen::Vector3d& centre)
 {
   FreeDirection free;
-  free.keyframe_id = keyframe_id;
+  free.view = view;
   free.rotation = AXIS_DISTANCE_M * r.norm() > t.norm();
-  free.axis_session = (free.rotation ? r : t).normalized();
+  free.axis_world = (free.rotation ? r : t).normalized();
   if (free.rotation)
-    free.point_on_axis_session = centre + r.cross(t) / r.squaredNorm();
+    free.point_on_axis_world = centre + r.cross(t) / r.squaredNorm();
   return free;
 }
 
-/// Motions of one keyframe that its partners resist by no more than noise. (Summed first: the directions that single
+/// Motions of one view that its partners resist by no more than noise. (Summed first: the directions that single
 /// pairs leave free differ a little, so that together they would seem to resist.)
-std::vector<FreeDirection> unresisted(int keyframe_id, const geometry::Matrix6d& A, const geometry::Matrix6d& noise,
+std::vector<FreeDirection> unresisted(int view, const geometry::Matrix6d& A, const geometry::Matrix6d& noise,
                                       const Eigen::Vector3d& centre)
 {
   geometry::Matrix6d N = noise;
@@ -76,13 +75,13 @@ std::vector<FreeDirection> unresisted(int keyframe_id, const geometry::Matrix6d&
       continue;
     const geometry::Vector6d motion = solver.eigenvectors().col(i);
     const Eigen::Vector3d r = motion.tail<3>();
-    directions.push_back(directionOf(keyframe_id, motion.head<3>() + r.cross(centre), r, centre));
+    directions.push_back(directionOf(view, motion.head<3>() + r.cross(centre), r, centre));
   }
   return directions;
 }
 
-/// Directions of a pose that are not known, given what it sees about `centre` (session frame).
-std::vector<FreeDirection> unknown(int keyframe_id, const geometry::Matrix6d& covariance, const Eigen::Vector3d& centre)
+/// Directions of a pose that are not known, given what it sees about `centre` (world).
+std::vector<FreeDirection> unknown(int view, const geometry::Matrix6d& covariance, const Eigen::Vector3d& centre)
 {
   // As displacements: of the centre, and of points LEVER_M from it.
   geometry::Matrix6d to_centre = geometry::adjoint(Eigen::Isometry3d(Eigen::Translation3d(-centre)));
@@ -95,23 +94,23 @@ std::vector<FreeDirection> unknown(int keyframe_id, const geometry::Matrix6d& co
       continue;
     const Eigen::Vector3d t = solver.eigenvectors().col(i).head<3>();
     const Eigen::Vector3d r = solver.eigenvectors().col(i).tail<3>() / LEVER_M;
-    directions.push_back(directionOf(keyframe_id, t, r, centre));
+    directions.push_back(directionOf(view, t, r, centre));
   }
   return directions;
 }
 
-void reportErrors(const std::vector<rgbd::Keyframe>& keyframes, const IcpProblem& problem,
+void reportErrors(const std::vector<rgbd::View>& views, const IcpProblem& problem,
                   const std::vector<Eigen::Isometry3d>& before, const std::vector<Eigen::Isometry3d>& after,
                   MultiViewIcpResult* result)
 {
   const std::vector<IcpError> errors_before = problem.errors(before, after),
                               errors_after = problem.errors(after, after);
-  std::vector<IcpError> of_before(keyframes.size()), of_after(keyframes.size());
+  std::vector<IcpError> of_before(views.size()), of_after(views.size());
   for (std::size_t e = 0; e < problem.edges().size(); ++e)
   {
     const IcpEdge& edge = problem.edges()[e];
-    result->pairs.push_back({ keyframes[edge.a].id, keyframes[edge.b].id, edge.overlap_ratio, errors_after[e].count,
-                              errors_before[e].rmse_m(), errors_after[e].rmse_m() });
+    result->pairs.push_back({ edge.a, edge.b, edge.overlap_ratio, errors_after[e].count, errors_before[e].rmse_m(),
+                              errors_after[e].rmse_m() });
     for (const int k : { edge.a, edge.b })
     {
       of_before[k].add(errors_before[e]);
@@ -119,7 +118,7 @@ void reportErrors(const std::vector<rgbd::Keyframe>& keyframes, const IcpProblem
     }
   }
   const std::vector<double> ratios = problem.fittingRatios();
-  for (std::size_t k = 0; k < keyframes.size(); ++k)
+  for (std::size_t k = 0; k < views.size(); ++k)
   {
     result->residuals[k].point_count = of_after[k].count;
     result->residuals[k].rmse_before_m = of_before[k].rmse_m();
@@ -129,17 +128,16 @@ void reportErrors(const std::vector<rgbd::Keyframe>& keyframes, const IcpProblem
 }
 
 /// Covariances and free directions, at the outcome.
-void reportKnowledge(const std::vector<rgbd::Keyframe>& keyframes, const std::vector<int>& bodies, bool object_only,
+void reportKnowledge(const std::vector<rgbd::View>& views, const std::vector<int>& bodies, bool object_only,
                      const IcpProblem& problem, const IcpOutcome& outcome, MultiViewIcpResult* result)
 {
-  std::vector<PairEquations> equations = problem.equations(outcome.T_session_camera);
-  const std::vector<geometry::Matrix6d> noise = problem.noise(outcome.T_session_camera);
+  std::vector<PairEquations> equations = problem.equations(outcome.T_world_camera);
+  const std::vector<geometry::Matrix6d> noise = problem.noise(outcome.T_world_camera);
   IcpError all;
-  for (const IcpError& error : problem.errors(outcome.T_session_camera, outcome.T_session_camera))
+  for (const IcpError& error : problem.errors(outcome.T_world_camera, outcome.T_world_camera))
     all.add(error);
   const double variance = all.weight > 0 ? all.squared_sigmas / all.weight : 1;
-  std::vector<geometry::Matrix6d> information_of(keyframes.size(), geometry::Matrix6d::Zero()),
-      noise_of = information_of;
+  std::vector<geometry::Matrix6d> information_of(views.size(), geometry::Matrix6d::Zero()), noise_of = information_of;
   for (std::size_t e = 0; e < equations.size(); ++e)
   {
     for (const int k : { equations[e].a, equations[e].b })
@@ -158,57 +156,56 @@ void reportKnowledge(const std::vector<rgbd::Keyframe>& keyframes, const std::ve
   {
     const int k = outcome.members[i];
     result->covariance[k] = covariances[k];
-    const Eigen::Vector3d centre = centreOf(keyframes[k].frame, object_only, outcome.T_session_camera[k]);
-    std::vector<FreeDirection> free = unresisted(keyframes[k].id, information_of[k], noise_of[k], centre);
+    const Eigen::Vector3d centre = centreOf(views[k].frame, object_only, outcome.T_world_camera[k]);
+    std::vector<FreeDirection> free = unresisted(k, information_of[k], noise_of[k], centre);
     if (free.empty())
-      free = unknown(keyframes[k].id, covariances[k], centre);
+      free = unknown(k, covariances[k], centre);
     result->free_directions.insert(result->free_directions.end(), free.begin(), free.end());
   }
 }
 }  // namespace
 
-MultiViewIcpResult reportOf(const std::vector<rgbd::Keyframe>& keyframes, const MultiViewIcpOptions& options,
+MultiViewIcpResult reportOf(const std::vector<rgbd::View>& views, const MultiViewIcpOptions& options,
                             const IcpProblem& problem, const IcpOutcome& outcome)
 {
   MultiViewIcpResult result;
-  for (const rgbd::Keyframe& keyframe : keyframes)
+  result.residuals.resize(views.size());
+  for (const rgbd::View& view : views)
   {
-    result.T_session_camera.push_back(keyframe.T_session_camera);
-    result.covariance.push_back(keyframe.covariance);
-    result.residuals.emplace_back();
-    result.residuals.back().keyframe_id = keyframe.id;
+    result.T_world_camera.push_back(view.T_world_camera);
+    result.covariance.push_back(view.covariance);
   }
   result.rmse_m = outcome.rmse_m;
   result.iterations = static_cast<int>(outcome.rmse_m.size());
   result.converged = outcome.converged;
   const bool possible = !outcome.members.empty();
-  for (std::size_t k = 0; k < keyframes.size(); ++k)
+  for (std::size_t k = 0; k < views.size(); ++k)
     if (!possible || !std::binary_search(outcome.members.begin(), outcome.members.end(), static_cast<int>(k)))
-      result.left_out.push_back(keyframes[k].id);
+      result.left_out.push_back(static_cast<int>(k));
   if (!possible)
   {
     result.status = { base::StatusCode::NO_RESULT,
-                      options.bodies.empty()
-                          ? "nothing to align: no two of " + std::to_string(keyframes.size()) +
+                      !options.sessions_as_bodies
+                          ? "nothing to align: no two of " + std::to_string(views.size()) +
                                 " keyframes see the same surface" + (options.object_only ? " of the object" : "") +
                                 " and fit; record more slowly, from closer by, or segment the object first"
                           : "nothing to align: keyframes of different bodies have too little surface in common" };
-    if (keyframes.size() == 1)
+    if (views.size() == 1)
       result.left_out.clear();
     return result;
   }
   result.last_step_m = outcome.last_step.moved_m;
   result.last_step_rad = outcome.last_step.turned_rad;
-  if (!outcome.converged && options.bodies.empty())
+  if (!outcome.converged && !options.sessions_as_bodies)
   {
     result.status = { base::StatusCode::NO_RESULT, "multi-view icp did not converge within " +
                                                        std::to_string(result.iterations) +
                                                        " iterations; raise max_iterations" };
     return result;
   }
-  reportErrors(keyframes, problem, result.T_session_camera, outcome.T_session_camera, &result);
-  result.T_session_camera = outcome.T_session_camera;
-  reportKnowledge(keyframes, bodiesOf(options, keyframes.size()), options.object_only, problem, outcome, &result);
+  reportErrors(views, problem, result.T_world_camera, outcome.T_world_camera, &result);
+  result.T_world_camera = outcome.T_world_camera;
+  reportKnowledge(views, bodiesOf(views, options), options.object_only, problem, outcome, &result);
   return result;
 }
 

@@ -11,7 +11,7 @@ namespace
 {
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Where the unknowns of each keyframe's body are, -1 for those that do not move.
+/// Where the unknowns of each view's body are, -1 for those that do not move.
 struct Rows
 {
   Rows(const std::vector<int>& members, const std::vector<int>& bodies) : of(bodies.size(), -1)

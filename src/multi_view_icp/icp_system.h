@@ -10,8 +10,8 @@ namespace object_modelling::multi_view_icp
 /// Information beyond that many times the noise's counts.
 constexpr double NOISE_FACTOR = 2;
 
-/// Half the squared error of what ties keyframes a and b together is about cost + g d + d A d / 2, where d is a's
-/// motion minus b's, both on the left of T_session_camera. Moving both alike changes nothing, so this is all there is
+/// Half the squared error of what ties views a and b together is about cost + g d + d A d / 2, where d is a's
+/// motion minus b's, both on the left of T_world_camera. Moving both alike changes nothing, so this is all there is
 /// to know.
 struct PairEquations
 {
@@ -21,8 +21,8 @@ struct PairEquations
   geometry::Vector6d g = geometry::Vector6d::Zero();
 };
 
-/// Least motions of all keyframes, with Levenberg and Marquardt's damping; those of one body move alike. The body of
-/// the first of `members` stays where it is, as do keyframes that are not members. Nothing if there is nothing to
+/// Least motions of all views, with Levenberg and Marquardt's damping; those of one body move alike. The body of
+/// the first of `members` stays where it is, as do views that are not members. Nothing if there is nothing to
 /// move, or the equations have no solution.
 std::optional<std::vector<geometry::Vector6d>> solveMotions(const std::vector<PairEquations>& pairs,
                                                             const std::vector<int>& members,

@@ -100,15 +100,16 @@ float IcpView::surfaceSigma_m(const Eigen::Vector3f& p, const Eigen::Vector3f& n
   return cosine * std::sqrt(noise_m * noise_m + systematic_m * systematic_m);
 }
 
-IcpView::IcpView(const rgbd::Frame& frame, const MultiViewIcpOptions& options)
+IcpView::IcpView(const rgbd::View& view, const MultiViewIcpOptions& options)
 {
+  const rgbd::Frame& frame = view.frame;
   noise_model_ = frame.noise_model;
   rgbd::Frame reduced;
   reduced.camera = frame.camera;
   reduced.depth_m = frame.depth_m;
   cv::Mat gray;
   if (options.color_weight > 0 && frame.gray.size() == frame.depth_m.size())
-    gray = rgbd::ontoDepth(frame.gray, options.color_offset_px);
+    gray = rgbd::ontoDepth(frame.gray, view.color_offset_px);
   while (reduced.depth_m.cols > MAX_WIDTH_PX)
   {
     reduced.depth_m = halved(reduced.depth_m);

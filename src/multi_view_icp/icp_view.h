@@ -11,7 +11,7 @@ namespace object_modelling::multi_view_icp
 {
 constexpr int ICP_COLOR_LEVELS = 3;
 
-/// A point of a keyframe that looks for partners, in its camera frame.
+/// A point of a view that looks for partners, in its camera frame.
 struct IcpPoint
 {
   Eigen::Vector3f p = Eigen::Vector3f::Zero();
@@ -27,12 +27,12 @@ struct IcpImage
   float fx = 1, fy = 1, cx = 0, cy = 0;
 };
 
-/// What multi-view ICP needs of a keyframe: surface at no more than 320 px of width, grey levels there and at a half
+/// What multi-view ICP needs of a view: surface at no more than 320 px of width, grey levels there and at a half
 /// and a quarter of it, points.
 class IcpView
 {
 public:
-  IcpView(const rgbd::Frame& frame, const MultiViewIcpOptions& options);
+  IcpView(const rgbd::View& view, const MultiViewIcpOptions& options);
 
   /// Where surface and normal are known, no depth edge is near and, if only the object counts, its mask is set.
   bool has(int u, int v) const { return usable_.at<std::uint8_t>(v, u) != 0; }

@@ -18,28 +18,22 @@ std::vector<std::string> MultiViewIcpOptions::violations() const
   check.inRange("min_edge_distance_px", min_edge_distance_px, 0.0, 50.0);
   check.positive("loss_width_sigmas", loss_width_sigmas);
   check.inRange("color_weight", color_weight, 0.0, 1000.0);
-  check.require("color_offset_px", color_offset_px.allFinite(), "must be finite");
   check.atLeast("max_iterations", max_iterations, 1);
   check.inRange("threads", threads, 1, 256);
   return check.violations();
 }
 
-MultiViewIcpResult refineByMultiViewIcp(const std::vector<rgbd::Keyframe>& keyframes,
-                                        const MultiViewIcpOptions& options, base::JobControl& control)
+MultiViewIcpResult refineByMultiViewIcp(const std::vector<rgbd::View>& views, const MultiViewIcpOptions& options,
+                                        base::JobControl& control)
 {
   base::checked(options);
-  if (!options.bodies.empty() && options.bodies.size() != keyframes.size())
-    throw base::Error(base::StatusCode::INVALID_ARGUMENT, "multi_view_icp: " + std::to_string(options.bodies.size()) +
-                                                              " bodies of " + std::to_string(keyframes.size()) +
-                                                              " keyframes; give one for each, or none");
-  control.report("overlap", 0, keyframes.size());
-  const bool by_keyframe = options.bodies.empty();
-  IcpProblem problem(keyframes, options, by_keyframe ? overlapGraph(keyframes, options) : std::vector<IcpEdge>(),
+  control.report("overlap", 0, views.size());
+  IcpProblem problem(views, options, options.sessions_as_bodies ? std::vector<IcpEdge>() : overlapGraph(views, options),
                      &control);
-  if (!by_keyframe)
-    problem.add(linksBetweenBodies(keyframes, problem.views(), options));
-  const IcpOutcome outcome = runIcp(keyframes, options, &problem, &control);
-  return reportOf(keyframes, options, problem, outcome);
+  if (options.sessions_as_bodies)
+    problem.add(linksBetweenBodies(views, problem.views(), options));
+  const IcpOutcome outcome = runIcp(views, options, &problem, &control);
+  return reportOf(views, options, problem, outcome);
 }
 
 }  // namespace object_modelling::multi_view_icp

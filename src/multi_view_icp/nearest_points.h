@@ -6,7 +6,7 @@
 
 namespace object_modelling::multi_view_icp
 {
-/// Nearest points of one keyframe's surface (k-d tree over every second pixel of every second row).
+/// Nearest points of one view's surface (k-d tree over every second pixel of every second row).
 class NearestPoints
 {
 public:

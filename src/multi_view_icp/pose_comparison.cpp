@@ -16,8 +16,8 @@ constexpr double GRAY_SIGMA = 8;           // grey levels: noise, and what anoth
 constexpr double MAX_OFF_SIGMAS = 12;      // at the best of the poses: beyond, another surface is in front
 constexpr double SLANT = 1.5;              // what slanted surfaces and the grid of pixels add to the noise of depth
 constexpr int MAX_DRAWS = 20;              // for a sample with depth
-constexpr std::size_t MAX_PARTNERS = 100;  // of a keyframe, evenly over the others: time grows with their product
-constexpr std::size_t FIRST = 64;          // samples that tell whether two keyframes may be a pair
+constexpr std::size_t MAX_PARTNERS = 100;  // of a view, evenly over the others: time grows with their product
+constexpr std::size_t FIRST = 64;          // samples that tell whether two views may be a pair
 
 struct Sample
 {
@@ -25,7 +25,7 @@ struct Sample
   Eigen::Vector2d pixel;
 };
 
-/// What one sample meets in another keyframe.
+/// What one sample meets in another view.
 struct Meeting
 {
   bool seen = false;
@@ -95,27 +95,26 @@ Meeting meet(const Sample& sample, const rgbd::Frame& frame, const rgbd::Frame& 
   return meeting;
 }
 
-/// Adds to the score of each set what the samples of keyframe i meet in keyframe j.
-void addPair(const std::vector<rgbd::Keyframe>& keyframes, std::size_t i, std::size_t j,
-             const std::vector<Sample>& samples, const std::vector<PoseSet>& sets, const PoseComparisonOptions& options,
-             std::vector<PoseScore>* scores)
+/// Adds to the score of each set what the samples of view i meet in view j.
+void addPair(const std::vector<rgbd::View>& views, std::size_t i, std::size_t j, const std::vector<Sample>& samples,
+             const std::vector<PoseSet>& sets, const PoseComparisonOptions& options, std::vector<PoseScore>* scores)
 {
   std::vector<Eigen::Isometry3d> T_j_i;
   for (const PoseSet& set : sets)
-    T_j_i.push_back(set.T_session_camera.at(j).inverse() * set.T_session_camera.at(i));
+    T_j_i.push_back(set.T_world_camera.at(j).inverse() * set.T_world_camera.at(i));
   std::vector<std::vector<Meeting>> meetings(sets.size());  // of samples that all sets see there
   std::vector<Meeting> met;
   for (std::size_t n = 0; n < samples.size(); ++n)
   {
     const Sample& sample = samples[n];
     if (n == FIRST && static_cast<double>(meetings.front().size()) < options.min_overlap_ratio / 2 * FIRST)
-      return;  // most of many keyframes have nothing in common
+      return;  // most of many views have nothing in common
     met.clear();
     double nearest_sigmas = MAX_OFF_SIGMAS;
     for (std::size_t k = 0; k < sets.size() && (met.empty() || met.back().seen); ++k)
     {
       met.push_back(
-          meet(sample, keyframes[i].frame, keyframes[j].frame, T_j_i[k], sets[k].color_offset_px, options.object_only));
+          meet(sample, views[i].frame, views[j].frame, T_j_i[k], sets[k].color_offset_px, options.object_only));
       nearest_sigmas = std::min(nearest_sigmas, std::abs(met.back().depth_sigmas));
     }
     if (met.size() < sets.size() || !met.back().seen || nearest_sigmas >= MAX_OFF_SIGMAS)
@@ -145,21 +144,21 @@ void addPair(const std::vector<rgbd::Keyframe>& keyframes, std::size_t i, std::s
 }
 }  // namespace
 
-std::vector<PoseScore> comparePoses(const std::vector<rgbd::Keyframe>& keyframes, const std::vector<PoseSet>& sets,
+std::vector<PoseScore> comparePoses(const std::vector<rgbd::View>& views, const std::vector<PoseSet>& sets,
                                     const PoseComparisonOptions& options, base::JobControl& control)
 {
   std::vector<PoseScore> scores(sets.size());
   if (sets.empty())
     return scores;
   std::mt19937_64 random(options.seed);
-  const std::size_t step = (keyframes.size() + MAX_PARTNERS - 1) / MAX_PARTNERS;
-  for (std::size_t i = 0; i < keyframes.size(); ++i)
+  const std::size_t step = (views.size() + MAX_PARTNERS - 1) / MAX_PARTNERS;
+  for (std::size_t i = 0; i < views.size(); ++i)
   {
-    control.report("compare poses", i, keyframes.size());
-    const std::vector<Sample> samples = samplesOf(keyframes[i].frame, options, &random);
-    for (std::size_t j = i % step; j < keyframes.size() && !samples.empty(); j += step)
-      if (i != j && !keyframes[j].frame.depth_m.empty() && !keyframes[j].frame.gray.empty())
-        addPair(keyframes, i, j, samples, sets, options, &scores);
+    control.report("compare poses", i, views.size());
+    const std::vector<Sample> samples = samplesOf(views[i].frame, options, &random);
+    for (std::size_t j = i % step; j < views.size() && !samples.empty(); j += step)
+      if (i != j && !views[j].frame.depth_m.empty() && !views[j].frame.gray.empty())
+        addPair(views, i, j, samples, sets, options, &scores);
   }
   for (PoseScore& score : scores)
   {

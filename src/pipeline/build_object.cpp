@@ -59,7 +59,7 @@ std::vector<std::string> idsOf(const std::vector<alignment::SessionPlacement>& p
 }
 
 /// A model is worth having without its texture: what is wrong becomes the result's status.
-texture::TextureResult textured(const mesh::TriangleMesh& mesh, const std::vector<rgbd::Keyframe>& views,
+texture::TextureResult textured(const mesh::TriangleMesh& mesh, const std::vector<rgbd::View>& views,
                                 const texture::TextureOptions& options, base::JobControl& control)
 {
   try
@@ -192,12 +192,10 @@ base::Status Build::fuse()
 {
   if (placements_.size() > 1)  // one session has been refined already
   {
-    warnings_.push_back(refineJointly({ idsOf(placements_), views_.lights }, &views_.keyframes, control_));
+    warnings_.push_back(refineJointly(idsOf(placements_), &views_.views, control_));
     timer_.finish("joint refinement");
   }
-  fusion::CloudFusionOptions options = options_.fusion;
-  options.color_offset_px += views_.meanColorOffset_px();
-  fused_ = fusion::fuse(views_.keyframes, options, control_);
+  fused_ = fusion::fuse(views_.views, options_.fusion, control_);
   timer_.finish("fuse");
   return fused_.status;
 }
@@ -215,19 +213,17 @@ base::Status Build::reconstruct()
     T_model_reference_ = box_reference_.T_frame_box.inverse();
   transform(*T_model_reference_, &fused_.cloud);
   mesh::transform(*T_model_reference_, &surface.mesh);
-  for (rgbd::Keyframe& view : views_.keyframes)
-    view.T_session_camera = *T_model_reference_ * view.T_session_camera;
   model_.mesh = std::move(surface.mesh);
+  model_.views = std::move(views_.views);
+  for (rgbd::View& view : model_.views)
+    rgbd::transform(*T_model_reference_, &view);
   timer_.finish("surface");
   return {};
 }
 
 void Build::addTexture()
 {
-  texture::TextureOptions options = options_.texture;
-  options.color_offset_px += views_.meanColorOffset_px();
-  options.lights = views_.lights;
-  texture_ = textured(model_.mesh, views_.keyframes, options, control_);
+  texture_ = textured(model_.mesh, model_.views, options_.texture, control_);
   warnings_.push_back(texture_.status.message);
   timer_.finish("texture");
 }
@@ -236,13 +232,12 @@ void Build::completeModel()
 {
   describe(views_, placements_, *T_model_reference_, box_reference_, &model_);
   model_.diameter_m = diameter_m(model_.mesh.vertices);
-  model_.quality = qualityFigures(views_.keyframes.size(), fused_, model_.mesh, texture_);
+  model_.quality = qualityFigures(model_.views.size(), fused_, model_.mesh, texture_);
   model_.provenance = { { "software", "object_modelling " OBJECT_MODELLING_VERSION },
                         { "fusion_resolution_m", std::to_string(options_.fusion.resolution_m) },
                         { "surface_resolution_m", std::to_string(options_.surface.resolution_m) } };
   model_.cloud = std::move(fused_.cloud);
   model_.textured = std::move(texture_.textured);
-  model_.views = std::move(views_.keyframes);
   model_.sessions_left_out = options_.left_out;
   warnings_.insert(warnings_.begin(), partialText(model_));
   const bool has_texture = texture_.status.ok();

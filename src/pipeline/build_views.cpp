@@ -1,9 +1,22 @@
 #include "build_views.h"
 
 #include "object_modelling/geometry/plane.h"
+#include "object_modelling/rgbd/keyframe_view.h"
 
 namespace object_modelling::pipeline
 {
+namespace
+{
+/// Sessions of one camera have one shift, but for errors.
+Eigen::Vector2d meanColorOffset_px(const std::vector<keyframes::Session>& sessions)
+{
+  Eigen::Vector2d sum_px = Eigen::Vector2d::Zero();
+  for (const keyframes::Session& session : sessions)
+    sum_px += session.calibration.color_offset_px;
+  return sum_px / static_cast<double>(sessions.size());
+}
+}  // namespace
+
 std::optional<geometry::Plane> Views::firstSupport() const
 {
   return support_planes_reference.empty() ? std::nullopt : std::make_optional(support_planes_reference.front());
@@ -14,20 +27,14 @@ std::optional<geometry::Plane> Views::onlySupport() const
   return sessions.size() == 1 ? firstSupport() : std::nullopt;
 }
 
-Eigen::Vector2d Views::meanColorOffset_px() const
-{
-  Eigen::Vector2d sum_px = Eigen::Vector2d::Zero();
-  for (const keyframes::Session& session : sessions)
-    sum_px += session.calibration.color_offset_px;
-  return sum_px / static_cast<double>(sessions.size());
-}
-
 base::Status loadViews(keyframes::SessionStore& store, const std::vector<alignment::SessionPlacement>& placements,
                        base::JobControl& control, Views* views)
 {
   for (const alignment::SessionPlacement& placement : placements)
   {
+    const auto session_index = static_cast<int>(views->sessions.size());
     views->sessions.push_back(store.session(placement.session_id));
+    const Eigen::Vector2d color_offset_px = views->sessions.back().calibration.color_offset_px;
     const std::vector<int> ids = store.keyframeIds(placement.session_id);
     if (ids.empty())
       return { base::StatusCode::FAILED_PRECONDITION,
@@ -36,14 +43,11 @@ base::Status loadViews(keyframes::SessionStore& store, const std::vector<alignme
     for (const int id : ids)
     {
       control.report("load", masked, ids.size());
-      rgbd::Keyframe keyframe = store.keyframe(placement.session_id, id);
+      const rgbd::Keyframe keyframe = store.keyframe(placement.session_id, id);
       if (keyframe.frame.object_mask.empty())
         continue;
       views->origins.push_back({ placement.session_id, id });
-      views->lights.push_back(static_cast<int>(views->sessions.size()) - 1);
-      keyframe.id = static_cast<int>(views->keyframes.size());
-      keyframe.T_session_camera = placement.T_reference_session * keyframe.T_session_camera;
-      views->keyframes.push_back(std::move(keyframe));
+      views->views.push_back(rgbd::viewOf(keyframe, placement.T_reference_session, session_index, color_offset_px));
       ++masked;
     }
     if (masked == 0)
@@ -53,6 +57,8 @@ base::Status loadViews(keyframes::SessionStore& store, const std::vector<alignme
     if (const std::optional<geometry::Plane>& plane = views->sessions.back().support_plane_session)
       views->support_planes_reference.push_back(geometry::transformed(placement.T_reference_session, *plane));
   }
+  for (rgbd::View& view : views->views)
+    view.color_offset_px = meanColorOffset_px(views->sessions);
   return {};
 }
 

@@ -10,7 +10,7 @@ namespace
 {
 constexpr double DEPTH_TOLERANCE_M = 0.005, MIN_COSINE = 0.17;
 
-bool sees(const rgbd::Keyframe& view, const Eigen::Vector3d& p_camera, const Eigen::Vector3d& n_camera)
+bool sees(const rgbd::View& view, const Eigen::Vector3d& p_camera, const Eigen::Vector3d& n_camera)
 {
   if (!(p_camera.z() > 0) || -n_camera.dot(p_camera.normalized()) < MIN_COSINE)
     return false;
@@ -22,7 +22,7 @@ bool sees(const rgbd::Keyframe& view, const Eigen::Vector3d& p_camera, const Eig
          rgbd::Visibility::ON;
 }
 
-void countDirections(const std::vector<rgbd::Keyframe>& views, Coverage* coverage)
+void countDirections(const std::vector<rgbd::View>& views, Coverage* coverage)
 {
   double area = 0, upper_area = 0;
   for (int row = 0; row < ELEVATION_BINS; ++row)
@@ -34,8 +34,8 @@ void countDirections(const std::vector<rgbd::Keyframe>& views, Coverage* coverag
       const Eigen::Vector3d direction(std::cos(elevation_rad) * std::cos(azimuth_rad),
                                       std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad));
       int& count = coverage->view_counts[row][column];
-      for (const rgbd::Keyframe& view : views)
-        count += view.T_session_camera.translation().normalized().dot(direction) >= std::cos(VIEW_CONE_RAD);
+      for (const rgbd::View& view : views)
+        count += view.T_world_camera.translation().normalized().dot(direction) >= std::cos(VIEW_CONE_RAD);
       const double share = std::cos(elevation_rad);  // of the bin's area
       area += share;
       coverage->direction_ratio += count > 0 ? share : 0;
@@ -50,7 +50,7 @@ void countDirections(const std::vector<rgbd::Keyframe>& views, Coverage* coverag
 }
 }  // namespace
 
-Coverage coverageOf(const mesh::TriangleMesh& mesh, const std::vector<rgbd::Keyframe>& views)
+Coverage coverageOf(const mesh::TriangleMesh& mesh, const std::vector<rgbd::View>& views)
 {
   Coverage coverage;
   countDirections(views, &coverage);
@@ -63,9 +63,9 @@ Coverage coverageOf(const mesh::TriangleMesh& mesh, const std::vector<rgbd::Keyf
     shape = &with_normals;
   }
   std::vector<int> seen_by(shape->vertices.size(), 0);
-  for (const rgbd::Keyframe& view : views)
+  for (const rgbd::View& view : views)
   {
-    const Eigen::Isometry3d T_camera_model = view.T_session_camera.inverse();
+    const Eigen::Isometry3d T_camera_model = view.T_world_camera.inverse();
     for (std::size_t i = 0; i < seen_by.size(); ++i)
       seen_by[i] += sees(view, T_camera_model * shape->vertices[i].cast<double>(),
                          T_camera_model.linear() * shape->normals[i].cast<double>());

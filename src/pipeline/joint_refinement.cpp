@@ -12,7 +12,7 @@ namespace object_modelling::pipeline
 namespace
 {
 constexpr double AFTER_ALIGNMENT_M = 0.003;  // how far the surfaces of aligned sessions are off, at most
-constexpr int MAX_PARTNERS = 3;              // of each keyframe: few unknowns need few of many pairs
+constexpr int MAX_PARTNERS = 3;              // of each view: few unknowns need few of many pairs
 
 bool isIn(const std::vector<std::string>& session_ids, const std::string& id)
 {
@@ -20,15 +20,14 @@ bool isIn(const std::vector<std::string>& session_ids, const std::string& id)
 }
 
 /// Sessions that stayed where alignment placed them; empty if none did.
-std::string leftOutText(const JointRefinement& joint, const std::vector<rgbd::Keyframe>& keyframes,
-                        const std::vector<int>& left_out_ids)
+std::string leftOutText(const std::vector<std::string>& session_ids, const std::vector<rgbd::View>& views,
+                        const std::vector<int>& left_out_views)
 {
   std::vector<std::string> left_out;
-  for (std::size_t k = 0; k < keyframes.size(); ++k)
+  for (const int k : left_out_views)
   {
-    const std::string& session_id = joint.session_ids.at(static_cast<std::size_t>(joint.sessions.at(k)));
-    if (std::find(left_out_ids.begin(), left_out_ids.end(), keyframes[k].id) != left_out_ids.end() &&
-        !isIn(left_out, session_id))
+    const std::string& session_id = session_ids.at(static_cast<std::size_t>(views[k].session_index));
+    if (!isIn(left_out, session_id))
       left_out.push_back(session_id);
   }
   std::string names;
@@ -50,7 +49,7 @@ std::string unconvergedText(const multi_view_icp::MultiViewIcpResult& refined)
 }
 }  // namespace
 
-std::string refineJointly(const JointRefinement& joint, std::vector<rgbd::Keyframe>* keyframes,
+std::string refineJointly(const std::vector<std::string>& session_ids, std::vector<rgbd::View>* views,
                           base::JobControl& control)
 {
   multi_view_icp::MultiViewIcpOptions options;
@@ -58,13 +57,13 @@ std::string refineJointly(const JointRefinement& joint, std::vector<rgbd::Keyfra
   options.start_error_m = AFTER_ALIGNMENT_M;
   options.color_weight = 0;
   options.max_partners = MAX_PARTNERS;
-  options.bodies = joint.sessions;
-  const multi_view_icp::MultiViewIcpResult refined = multi_view_icp::refineByMultiViewIcp(*keyframes, options, control);
+  options.sessions_as_bodies = true;
+  const multi_view_icp::MultiViewIcpResult refined = multi_view_icp::refineByMultiViewIcp(*views, options, control);
   if (!refined.status.ok())
     return "sessions are placed as aligned, not refined together: " + refined.status.message;
-  for (std::size_t i = 0; i < keyframes->size(); ++i)
-    (*keyframes)[i].T_session_camera = refined.T_session_camera[i];
-  const std::string left_out = leftOutText(joint, *keyframes, refined.left_out);
+  for (std::size_t i = 0; i < views->size(); ++i)
+    (*views)[i].T_world_camera = refined.T_world_camera[i];
+  const std::string left_out = leftOutText(session_ids, *views, refined.left_out);
   const std::string left = refined.converged ? "" : unconvergedText(refined);
   return left_out + (left_out.empty() || left.empty() ? "" : "; ") + left;
 }

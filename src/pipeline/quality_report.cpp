@@ -122,12 +122,12 @@ void emitSessions(YAML::Emitter& out, const std::vector<keyframes::Session>& ses
   out << YAML::EndSeq;
 }
 
-void emitViews(YAML::Emitter& out, const std::vector<rgbd::Keyframe>& views, const std::vector<ViewOrigin>& origins)
+void emitViews(YAML::Emitter& out, const std::vector<rgbd::View>& views, const std::vector<ViewOrigin>& origins)
 {
   out << YAML::Key << "views" << YAML::Value << YAML::BeginSeq;
   for (std::size_t i = 0; i < views.size(); ++i)
   {
-    const Eigen::Vector3d position_m = views[i].T_session_camera.translation();
+    const Eigen::Vector3d position_m = views[i].T_world_camera.translation();
     out << YAML::Flow << YAML::BeginMap;
     put(out, "index", i);
     out << YAML::Key << "session_id" << YAML::Value << YAML::DoubleQuoted << origins.at(i).session_id;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "object_modelling/rgbd/corrected.h"
+#include "object_modelling/rgbd/keyframe_view.h"
 
 namespace object_modelling::pipeline
 {
@@ -48,25 +49,25 @@ std::string choiceText(const SessionRefinement& refined)
 }
 }  // namespace
 
-template <typename Result>
-Refiner::Candidate Refiner::candidateOf(const std::string& by, const Result& result,
-                                        const Eigen::Vector2d& color_offset_px)
+Refiner::Candidate Refiner::candidateOf(const std::string& by, multi_view_icp::PoseSet poses,
+                                        std::vector<geometry::Matrix6d> covariance)
 {
-  Candidate candidate{ by, { result.T_session_camera, color_offset_px }, result.covariance };
-  candidate.covariance.resize(result.T_session_camera.size(), geometry::Matrix6d::Zero());
-  return candidate;
+  covariance.resize(poses.T_world_camera.size(), geometry::Matrix6d::Zero());
+  return { by, std::move(poses), std::move(covariance) };
 }
 
-Refiner::Refiner(RefinementOptions options, std::vector<rgbd::Keyframe> keyframes, base::JobControl& control)
+Refiner::Refiner(RefinementOptions options, std::vector<rgbd::Keyframe> keyframes,
+                 const Eigen::Vector2d& color_offset_px, base::JobControl& control)
     : options_(std::move(options)), keyframes_(std::move(keyframes)), control_(control)
 {
   Candidate live;
   live.by = LIVE;
-  live.poses.color_offset_px = options_.multi_view_icp.color_offset_px;
+  live.poses.color_offset_px = color_offset_px;
   for (const rgbd::Keyframe& keyframe : keyframes_)
   {
-    live.poses.T_session_camera.push_back(keyframe.T_session_camera);
+    live.poses.T_world_camera.push_back(keyframe.T_session_camera);
     live.covariance.push_back(keyframe.covariance);
+    refined_.keyframe_ids.push_back(keyframe.id);
   }
   candidates_ = { live };
 }
@@ -90,7 +91,7 @@ void Refiner::place(const Candidate& candidate)
 {
   for (std::size_t i = 0; i < keyframes_.size(); ++i)
   {
-    keyframes_[i].T_session_camera = candidate.poses.T_session_camera[i];
+    keyframes_[i].T_session_camera = candidate.poses.T_world_camera[i];
     keyframes_[i].covariance = candidate.covariance[i];
   }
 }
@@ -101,12 +102,13 @@ void Refiner::adjustBundle()
   refined_.status = refined_.bundle_adjustment->status;
   if (!refined_.status.ok())
     return;
-  candidates_.push_back(candidateOf(nameOf(RefinementMethod::BUNDLE_ADJUSTMENT), *refined_.bundle_adjustment,
-                                    refined_.bundle_adjustment->color_offset_px));
+  const bundle_adjustment::BundleAdjustmentResult& result = *refined_.bundle_adjustment;
+  candidates_.push_back(candidateOf(nameOf(RefinementMethod::BUNDLE_ADJUSTMENT),
+                                    { result.T_session_camera, result.color_offset_px }, result.covariance));
   place(candidates_.back());
   if (corrected())
     for (rgbd::Keyframe& keyframe : keyframes_)
-      keyframe = rgbd::corrected(keyframe, refined_.bundle_adjustment->sensor);
+      keyframe = rgbd::corrected(keyframe, result.sensor);
 }
 
 void Refiner::alignSurfaces()
@@ -114,16 +116,15 @@ void Refiner::alignSurfaces()
   const bool adjusted = candidates_.size() > 1;
   multi_view_icp::MultiViewIcpOptions options = options_.multi_view_icp;
   if (adjusted)
-  {
     options.start_error_m = std::min(AFTER_BUNDLE_M, options.start_error_m);
-    options.color_offset_px = refined_.bundle_adjustment->color_offset_px;
-  }
-  multi_view_icp::MultiViewIcpResult result = multi_view_icp::refineByMultiViewIcp(keyframes_, options, control_);
+  const Eigen::Vector2d color_offset_px = candidates_.back().poses.color_offset_px;
+  multi_view_icp::MultiViewIcpResult result =
+      multi_view_icp::refineByMultiViewIcp(rgbd::viewsOf(keyframes_, color_offset_px), options, control_);
   if (adjusted && !corrected() && drivesSurfacesApart())
     alignSurfacesAlone();
   if (result.status.ok())
     candidates_.push_back(candidateOf(nameOf(adjusted ? RefinementMethod::BOTH : RefinementMethod::MULTI_VIEW_ICP),
-                                      result, options.color_offset_px));
+                                      { result.T_world_camera, color_offset_px }, result.covariance));
   if (!adjusted)
     refined_.status = result.status;
   refined_.multi_view_icp = std::move(result);
@@ -132,10 +133,12 @@ void Refiner::alignSurfaces()
 void Refiner::alignSurfacesAlone()
 {
   place(candidates_.front());
-  alone_ = multi_view_icp::refineByMultiViewIcp(keyframes_, options_.multi_view_icp, control_);
+  const Eigen::Vector2d color_offset_px = candidates_.front().poses.color_offset_px;
+  alone_ = multi_view_icp::refineByMultiViewIcp(rgbd::viewsOf(keyframes_, color_offset_px), options_.multi_view_icp,
+                                                control_);
   if (alone_->status.ok())
-    candidates_.push_back(
-        candidateOf(nameOf(RefinementMethod::MULTI_VIEW_ICP), *alone_, options_.multi_view_icp.color_offset_px));
+    candidates_.push_back(candidateOf(nameOf(RefinementMethod::MULTI_VIEW_ICP),
+                                      { alone_->T_world_camera, color_offset_px }, alone_->covariance));
 }
 
 std::vector<multi_view_icp::PoseScore> Refiner::scores() const
@@ -145,7 +148,7 @@ std::vector<multi_view_icp::PoseScore> Refiner::scores() const
     sets.push_back(candidate.poses);
   multi_view_icp::PoseComparisonOptions options;
   options.object_only = objectOnly();
-  return multi_view_icp::comparePoses(keyframes_, sets, options, control_);
+  return multi_view_icp::comparePoses(rgbd::viewsOf(keyframes_), sets, options, control_);
 }
 
 bool Refiner::drivesSurfacesApart() const
@@ -167,7 +170,7 @@ void Refiner::choose()
   const Candidate& chosen = candidates_[best];
   place(chosen);
   refined_.chosen = chosen.by;
-  refined_.T_session_camera = chosen.poses.T_session_camera;
+  refined_.T_session_camera = chosen.poses.T_world_camera;
   if (alone_ && chosen.by == nameOf(RefinementMethod::MULTI_VIEW_ICP))
     refined_.multi_view_icp = std::move(alone_);
   if (best + 1 < candidates_.size())

@@ -12,8 +12,10 @@ namespace object_modelling::pipeline
 class Refiner
 {
 public:
-  /// Options with what the session says: object_only, the colour offset. `control` must outlive this.
-  Refiner(RefinementOptions options, std::vector<rgbd::Keyframe> keyframes, base::JobControl& control);
+  /// Options with what the session says: object_only. `color_offset_px`: of the frames, as far as it is known before.
+  /// `control` must outlive this.
+  Refiner(RefinementOptions options, std::vector<rgbd::Keyframe> keyframes, const Eigen::Vector2d& color_offset_px,
+          base::JobControl& control);
 
   SessionRefinement run();
   /// With the poses that were chosen.
@@ -27,8 +29,8 @@ private:
     multi_view_icp::PoseSet poses;
     std::vector<geometry::Matrix6d> covariance;
   };
-  template <typename Result>
-  static Candidate candidateOf(const std::string& by, const Result& result, const Eigen::Vector2d& color_offset_px);
+  static Candidate candidateOf(const std::string& by, multi_view_icp::PoseSet poses,
+                               std::vector<geometry::Matrix6d> covariance);
 
   void adjustBundle();
   void alignSurfaces();

@@ -78,7 +78,6 @@ SessionRefinement refineSessionBy(keyframes::SessionStore& store, const std::str
   const keyframes::Session session = store.session(session_id);
   options.bundle_adjustment.object_only |= session.reference_is_object;
   options.multi_view_icp.object_only |= session.reference_is_object;
-  options.multi_view_icp.color_offset_px = session.calibration.color_offset_px;
   // What one session tells of the offset is less than a calibration does.
   if (session.calibration.noise_model.shiftsColor())
     options.bundle_adjustment.calibrate_color_offset = false;
@@ -91,7 +90,7 @@ SessionRefinement refineSessionBy(keyframes::SessionStore& store, const std::str
   }
   if (options.bundle_adjustment.object_only)
     addTurntables(&keyframes);
-  Refiner refiner(options, std::move(keyframes), control);
+  Refiner refiner(options, std::move(keyframes), session.calibration.color_offset_px, control);
   refined = refiner.run();
   if (!refined.status.ok() && refined.chosen == "live")
     return refined;

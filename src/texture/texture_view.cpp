@@ -33,75 +33,70 @@ cv::Mat nearestDepth(const cv::Mat& depth_m, int radius_px)
   return nearest_m;
 }
 
-void checkImages(const rgbd::Keyframe& keyframe)
+void checkView(const rgbd::View& view, std::size_t index)
 {
-  const rgbd::Frame& frame = keyframe.frame;
+  const rgbd::Frame& frame = view.frame;
   const cv::Size size(frame.camera.width, frame.camera.height);
   const auto fits = [&](const cv::Mat& image, int type) { return image.type() == type && image.size() == size; };
-  if (!frame.camera.violations().empty() || !keyframe.T_session_camera.matrix().allFinite() ||
-      !fits(frame.color_bgr, CV_8UC3) || !(frame.depth_m.empty() || fits(frame.depth_m, CV_32FC1)) ||
+  if (!frame.camera.violations().empty() || !view.T_world_camera.matrix().allFinite() ||
+      !view.color_offset_px.allFinite() || view.session_index < 0 || !fits(frame.color_bgr, CV_8UC3) ||
+      !(frame.depth_m.empty() || fits(frame.depth_m, CV_32FC1)) ||
       !(frame.object_mask.empty() || fits(frame.object_mask, CV_8UC1)))
-    throw base::Error(base::StatusCode::BAD_INPUT, "keyframe " + std::to_string(keyframe.id) +
-                                                       " cannot be used for texture: colour, depth, mask, camera "
-                                                       "and pose must be sound and fit together");
+    throw base::Error(base::StatusCode::BAD_INPUT,
+                      "view " + std::to_string(index) +
+                          " cannot be used for texture: colour, depth, mask, camera, "
+                          "pose, colour offset and session must be sound and fit together");
 }
 
-TextureView prepare(const mesh::TriangleMesh& mesh, const rgbd::Keyframe& keyframe,
-                    const Eigen::Vector2d& color_offset_px)
+TextureView prepare(const mesh::TriangleMesh& mesh, const rgbd::View& view)
 {
-  TextureView view;
-  view.frame = &keyframe.frame;
-  view.T_camera_mesh = keyframe.T_session_camera.inverse().cast<float>();
-  view.p_mesh_camera = keyframe.T_session_camera.translation().cast<float>();
-  view.color_offset_px = color_offset_px.cast<float>();
-  const mesh::MeshView rendered = mesh::renderMesh(mesh, keyframe.frame.camera, keyframe.T_session_camera.inverse());
-  view.nearest_surface_m = nearestDepth(rendered.depth_m, OCCLUSION_MARGIN_PX);
-  if (!keyframe.frame.depth_m.empty())
-    view.nearest_depth_m = nearestDepth(keyframe.frame.depth_m, 1);
+  const rgbd::Frame& frame = view.frame;
+  const Eigen::Isometry3d& T_mesh_camera = view.T_world_camera;
+  TextureView prepared;
+  prepared.frame = &frame;
+  prepared.light = view.session_index;
+  prepared.T_camera_mesh = T_mesh_camera.inverse().cast<float>();
+  prepared.p_mesh_camera = T_mesh_camera.translation().cast<float>();
+  prepared.color_offset_px = view.color_offset_px.cast<float>();
+  const mesh::MeshView rendered = mesh::renderMesh(mesh, frame.camera, T_mesh_camera.inverse());
+  prepared.nearest_surface_m = nearestDepth(rendered.depth_m, OCCLUSION_MARGIN_PX);
+  if (!frame.depth_m.empty())
+    prepared.nearest_depth_m = nearestDepth(frame.depth_m, 1);
   cv::Mat object = rendered.triangle_id >= 0;
-  if (!keyframe.frame.object_mask.empty())
+  if (!frame.object_mask.empty())
   {
     cv::Mat mask;  // without the pinholes that missing depth leaves
-    cv::morphologyEx(keyframe.frame.object_mask, mask, cv::MORPH_CLOSE, cv::Mat::ones(PINHOLE_PX, PINHOLE_PX, CV_8UC1));
+    cv::morphologyEx(frame.object_mask, mask, cv::MORPH_CLOSE, cv::Mat::ones(PINHOLE_PX, PINHOLE_PX, CV_8UC1));
     object &= mask;
   }
-  cv::distanceTransform(object, view.rim_px, cv::DIST_L2, 5);
-  cv::GaussianBlur(keyframe.frame.color_bgr, view.smooth_bgr, cv::Size(), SMOOTHING_PX);
+  cv::distanceTransform(object, prepared.rim_px, cv::DIST_L2, 5);
+  cv::GaussianBlur(frame.color_bgr, prepared.smooth_bgr, cv::Size(), SMOOTHING_PX);
   cv::Mat gray, along_u, along_v;
-  cv::cvtColor(keyframe.frame.color_bgr, gray, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(frame.color_bgr, gray, cv::COLOR_BGR2GRAY);
   cv::Sobel(gray, along_u, CV_32F, 1, 0, 3, 1. / 8);
   cv::Sobel(gray, along_v, CV_32F, 0, 1, 3, 1. / 8);
-  cv::magnitude(along_u, along_v, view.gradient);
-  return view;
+  cv::magnitude(along_u, along_v, prepared.gradient);
+  return prepared;
 }
 }  // namespace
 
-std::vector<TextureView> prepareTextureViews(const mesh::TriangleMesh& mesh,
-                                             const std::vector<rgbd::Keyframe>& keyframes,
-                                             const std::vector<int>& lights, const Eigen::Vector2d& color_offset_px)
+std::vector<TextureView> prepareTextureViews(const mesh::TriangleMesh& mesh, const std::vector<rgbd::View>& views)
 {
-  std::vector<const rgbd::Keyframe*> usable;
-  std::vector<int> light_of;
-  for (std::size_t i = 0; i < keyframes.size(); ++i)
+  std::vector<const rgbd::View*> usable;
+  for (std::size_t i = 0; i < views.size(); ++i)
   {
-    const rgbd::Keyframe& keyframe = keyframes[i];
-    if (keyframe.frame.color_bgr.empty())
+    const rgbd::Frame& frame = views[i].frame;
+    if (frame.color_bgr.empty())
       continue;
-    checkImages(keyframe);
-    if (keyframe.frame.object_mask.empty() || cv::countNonZero(keyframe.frame.object_mask) > 0)
-    {
-      usable.push_back(&keyframe);
-      light_of.push_back(lights.empty() ? 0 : lights[i]);
-    }
+    checkView(views[i], i);
+    if (frame.object_mask.empty() || cv::countNonZero(frame.object_mask) > 0)
+      usable.push_back(&views[i]);
   }
-  std::vector<TextureView> views(usable.size());
+  std::vector<TextureView> prepared(usable.size());
 #pragma omp parallel for schedule(dynamic)
   for (int i = 0; i < static_cast<int>(usable.size()); ++i)
-  {
-    views[i] = prepare(mesh, *usable[i], color_offset_px);
-    views[i].light = light_of[i];
-  }
-  return views;
+    prepared[i] = prepare(mesh, *usable[i]);
+  return prepared;
 }
 
 Sighting sight(const TextureView& view, const Eigen::Vector3f& p_mesh, const Eigen::Vector3f& n_mesh)

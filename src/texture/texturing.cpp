@@ -149,13 +149,10 @@ std::vector<std::string> TextureOptions::violations() const
   check.inRange("padding_px", padding_px, 1, 64);
   check.inRange("view_preference", view_preference, 0.0, 100.0);
   check.inRange("outlier_tolerance", outlier_tolerance, 1.0, 255.0);
-  check.require("lights", lights.empty() || *std::min_element(lights.begin(), lights.end()) >= 0,
-                "must not be negative");
-  check.require("color_offset_px", color_offset_px.allFinite(), "must be finite");
   return check.violations();
 }
 
-TextureResult textureMesh(const mesh::TriangleMesh& input, const std::vector<rgbd::Keyframe>& keyframes,
+TextureResult textureMesh(const mesh::TriangleMesh& input, const std::vector<rgbd::View>& input_views,
                           const TextureOptions& options, base::JobControl& control)
 {
   base::checked(options);
@@ -167,10 +164,7 @@ TextureResult textureMesh(const mesh::TriangleMesh& input, const std::vector<rgb
       if (vertex >= input.vertices.size())
         return nothing(base::StatusCode::INVALID_ARGUMENT,
                        "a triangle of the mesh has vertex " + std::to_string(vertex) + ", which does not exist");
-  if (!options.lights.empty() && options.lights.size() != keyframes.size())
-    return nothing(base::StatusCode::INVALID_ARGUMENT,
-                   std::to_string(options.lights.size()) + " lights of " + std::to_string(keyframes.size()) + " views");
-  if (keyframes.empty())
+  if (input_views.empty())
     return nothing(base::StatusCode::NO_RESULT, "there are no views; record keyframes of the object");
   TextureResult result;
   result.textured.mesh = input;
@@ -178,9 +172,9 @@ TextureResult textureMesh(const mesh::TriangleMesh& input, const std::vector<rgb
   if (mesh.normals.size() != mesh.vertices.size())
     mesh::computeNormals(&result.textured.mesh);
 
-  const std::vector<TextureView> views = prepareTextureViews(mesh, keyframes, options.lights, options.color_offset_px);
+  const std::vector<TextureView> views = prepareTextureViews(mesh, input_views);
   if (views.empty())
-    return nothing(base::StatusCode::NO_RESULT, "none of the " + std::to_string(keyframes.size()) +
+    return nothing(base::StatusCode::NO_RESULT, "none of the " + std::to_string(input_views.size()) +
                                                     " views has a colour image and the object in its mask; segment "
                                                     "the object first");
   control.report("texture", 1, STAGES);
@@ -212,9 +206,9 @@ TextureResult textureMesh(const mesh::TriangleMesh& input, const std::vector<rgb
   result.textured.seen = seenTexels(paint, atlas, owners);
   measureSeams(paint, atlas, &result);
   result.seen_ratio = seenRatio(mesh, weights);
-  result.gains.assign(keyframes.size(), Eigen::Vector3f::Ones());
-  for (std::size_t i = 0, k = 0; i < keyframes.size() && k < views.size(); ++i)
-    if (views[k].frame == &keyframes[i].frame)
+  result.gains.assign(input_views.size(), Eigen::Vector3f::Ones());
+  for (std::size_t i = 0, k = 0; i < input_views.size() && k < views.size(); ++i)
+    if (views[k].frame == &input_views[i].frame)
       result.gains[i] = exposure.view_gains[k++];
   control.report("texture", STAGES, STAGES);
   return result;

@@ -16,7 +16,7 @@ using namespace object_modelling;
 
 namespace
 {
-std::vector<rgbd::Keyframe> record(const test_support::SyntheticScene& scene, int count)
+std::vector<rgbd::View> record(const test_support::SyntheticScene& scene, int count)
 {
   test_support::SensorNoise noise;
   noise.depth_sigma_scale = 1;
@@ -25,7 +25,7 @@ std::vector<rgbd::Keyframe> record(const test_support::SyntheticScene& scene, in
   std::vector<Eigen::Isometry3d> poses = test_support::orbitPoses(count - count / 2, { 0, 0, 0.1 }, 0.6, 0.35);
   for (const Eigen::Isometry3d& pose : test_support::orbitPoses(count / 2, { 0, 0, 0.1 }, 0.6, 0.9))
     poses.push_back(pose);
-  return test_support::renderKeyframes(scene, test_support::vgaCamera(), poses, noise);
+  return test_support::renderViews(scene, test_support::vgaCamera(), poses, noise);
 }
 
 double secondsSince(std::chrono::steady_clock::time_point start)
@@ -45,12 +45,12 @@ int main(int argc, char** argv)
   }
   test_support::SyntheticScene scene;
   scene.objects.push_back(test_support::standingSphere(0.2));
-  const std::vector<rgbd::Keyframe> keyframes = record(scene, count);
+  const std::vector<rgbd::View> views = record(scene, count);
   base::JobControl control;
   for (int i = 0; i < repetitions; ++i)
   {
     auto start = std::chrono::steady_clock::now();
-    const fusion::CloudFusionResult fused = fusion::fuse(keyframes, {}, control);
+    const fusion::CloudFusionResult fused = fusion::fuse(views, {}, control);
     const double fusion_s = secondsSince(start);
     start = std::chrono::steady_clock::now();
     const surface::SurfaceResult surface = surface::reconstructSurface(fused.cloud, std::nullopt, {}, control);

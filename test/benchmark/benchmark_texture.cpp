@@ -18,6 +18,7 @@
 #include "object_modelling/mesh/textured_renderer.h"
 #include "object_modelling/pipeline/record_session.h"
 #include "object_modelling/pipeline/session_jobs.h"
+#include "object_modelling/rgbd/keyframe_view.h"
 #include "object_modelling/source/tum_folder.h"
 #include "object_modelling/surface/surface_reconstruction.h"
 #include "object_modelling/texture/texturing.h"
@@ -88,7 +89,7 @@ Model makeModel(const std::string& recording, const Arguments& arguments)
   fusion::CloudFusionOptions fusion_options;
   surface::SurfaceOptions surface_options;
   fusion_options.resolution_m = surface_options.resolution_m = arguments.resolution_mm / 1000;
-  const fusion::CloudFusionResult fused = fusion::fuse(model.keyframes, fusion_options, control);
+  const fusion::CloudFusionResult fused = fusion::fuse(rgbd::viewsOf(model.keyframes), fusion_options, control);
   throwUnlessOk(fused.status);
   surface::SurfaceResult surface = surface::reconstructSurface(fused.cloud, std::nullopt, surface_options, control);
   throwUnlessOk(surface.status);
@@ -186,12 +187,11 @@ void measure(const std::string& recording, const Arguments& arguments)
   for (std::size_t i = 0; i < model.keyframes.size(); ++i)
     (static_cast<int>(i) % arguments.hold_out == arguments.hold_out / 2 ? held_out : used)
         .push_back(model.keyframes[i]);
-  texture::TextureOptions options = arguments.texture;
-  if (arguments.color_offset)
-    options.color_offset_px = model.color_offset_px;
+  const Eigen::Vector2d offset_px = arguments.color_offset ? model.color_offset_px : Eigen::Vector2d(0, 0);
   base::JobControl control;
   const auto start = std::chrono::steady_clock::now();
-  const texture::TextureResult result = texture::textureMesh(model.mesh, used, options, control);
+  const texture::TextureResult result =
+      texture::textureMesh(model.mesh, rgbd::viewsOf(used, offset_px), arguments.texture, control);
   const double texture_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   throwUnlessOk(result.status);
 
@@ -204,7 +204,7 @@ void measure(const std::string& recording, const Arguments& arguments)
     std::filesystem::create_directories(arguments.out);
   for (const rgbd::Keyframe& view : held_out)
   {
-    const geometry::PinholeCamera camera = colorCamera(view.frame.camera, options.color_offset_px);
+    const geometry::PinholeCamera camera = colorCamera(view.frame.camera, offset_px);
     const mesh::MeshView drawn =
         mesh::renderTexturedMesh(result.textured, camera, view.T_session_camera.inverse(), SAMPLES_PER_SIDE);
     cv::Mat mask;  // without the pinholes that missing depth leaves
@@ -259,8 +259,7 @@ void measure(const std::string& recording, const Arguments& arguments)
       "%zu charts  atlas %dx%d  seam %.2f -> %.2f  offset %.2f %.2f px\n",
       recording.c_str(), used.size(), held_out.size(), image_sum / count, image_worst, truth_sum / count, truth_worst,
       lit_sum / count, lit_worst, texture_s, result.seen_ratio, result.chart_count, result.textured.texture_bgr.cols,
-      result.textured.texture_bgr.rows, result.seam_step_before, result.seam_step_after, options.color_offset_px.x(),
-      options.color_offset_px.y());
+      result.textured.texture_bgr.rows, result.seam_step_before, result.seam_step_after, offset_px.x(), offset_px.y());
 }
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <random>
 #include <sstream>
 
+#include "object_modelling/rgbd/keyframe_view.h"
 #include "tracking_metrics.h"
 
 namespace object_modelling::benchmark_refinement
@@ -55,15 +56,15 @@ base::Status runStep(const std::string& step, const MeasureOptions& options, std
     multi_view_icp::MultiViewIcpOptions icp = options.icp;
     icp.object_only = options.object_only;
     icp.threads = options.threads;
-    icp.color_offset_px = *color_offset_px;
-    const multi_view_icp::MultiViewIcpResult result = multi_view_icp::refineByMultiViewIcp(*keyframes, icp, control);
+    const multi_view_icp::MultiViewIcpResult result =
+        multi_view_icp::refineByMultiViewIcp(rgbd::viewsOf(*keyframes, *color_offset_px), icp, control);
     measurement->pairs = result.pairs.size();
     measurement->left_out = result.left_out.size();
     measurement->free_directions = result.free_directions.size();
     measurement->iterations += result.iterations;
     for (const double rmse_m : result.rmse_m)
       measurement->rmse_mm.push_back(1e3 * rmse_m);
-    refined = result.T_session_camera;
+    refined = result.T_world_camera;
     status = result.status;
   }
   for (std::size_t k = 0; k < refined.size(); ++k)

@@ -244,7 +244,9 @@ TEST(BundleAdjustment, worksWithFewOrNoDepths)
   const Eigen::Vector3d t_last = none.T_session_camera.back().translation();
   const Eigen::Vector3d t_last_truth = blind.back().T_session_camera.translation();
   EXPECT_GT(t_last.normalized().dot(t_last_truth.normalized()), 0.9999);
-  EXPECT_LT(test_support::largestError({ none.T_session_camera[0] }, { blind[0] }).translation_m, 1e-12);
+  EXPECT_LT(
+      test_support::largestError({ none.T_session_camera[0] }, std::vector<rgbd::Keyframe>{ blind[0] }).translation_m,
+      1e-12);
 }
 
 TEST(BundleAdjustment, leavesOutDisconnectedKeyframes)

@@ -67,7 +67,7 @@ ObjectModel makeModel(const std::string& id, int variant, int view_count)
   std::vector<Eigen::Isometry3d> poses;
   for (int i = 0; i < view_count; ++i)
     poses.push_back(lookingAtOrigin(0.4 * i));
-  model.views = test_support::renderKeyframes(test_support::boxOnTable(), test_support::vgaCamera(), poses);
+  model.views = test_support::renderViews(test_support::boxOnTable(), test_support::vgaCamera(), poses);
   return model;
 }
 

@@ -164,7 +164,7 @@ TEST_F(ObjectDatabaseTest, RefusesModelsThatAreNotWhole)
   EXPECT_TRUE(refused([](ObjectModel* m) { m->sessions[0].T_model_session(0, 3) = std::nan(""); }));
   EXPECT_TRUE(refused([](ObjectModel* m) { m->views[0].frame.camera.width = 7; }));
   EXPECT_TRUE(refused([](ObjectModel* m) { m->views[0].frame.object_mask = cv::Mat::ones(3, 3, CV_8UC1); }));
-  EXPECT_TRUE(refused([](ObjectModel* m) { m->views[0].T_session_camera(0, 0) = INFINITY; }));
+  EXPECT_TRUE(refused([](ObjectModel* m) { m->views[0].T_world_camera(0, 0) = INFINITY; }));
   EXPECT_TRUE(refused([](ObjectModel* m) { m->preview_bgr = cv::Mat::ones(3, 3, CV_8UC1); }));
   EXPECT_TRUE(database_.list().empty());
   EXPECT_TRUE(database_.check().empty());

@@ -72,7 +72,7 @@ TEST(ViewFiles, PoseTakesTheObjectIndicesOntoTheObject)
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column)
       ASSERT_TRUE(pose >> T_model_camera(row, column));
-  EXPECT_EQ(T_model_camera, model.views[0].T_session_camera.matrix());
+  EXPECT_EQ(T_model_camera, model.views[0].T_world_camera.matrix());
 
   std::istringstream indices(base::readTextFile(views + "object_indices_00000000.txt"));
   int count = 0;

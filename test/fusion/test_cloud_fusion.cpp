@@ -38,16 +38,15 @@ std::vector<Eigen::Isometry3d> allRound(int count, double radius_m = 0.6)
   return poses;
 }
 
-std::vector<rgbd::Keyframe> keyframesOf(const SyntheticScene& scene, int count,
-                                        const test_support::SensorNoise& noise = {})
+std::vector<rgbd::View> viewsOf(const SyntheticScene& scene, int count, const test_support::SensorNoise& noise = {})
 {
-  return test_support::renderKeyframes(scene, test_support::vgaCamera(), allRound(count), noise);
+  return test_support::renderViews(scene, test_support::vgaCamera(), allRound(count), noise);
 }
 
-CloudFusionResult fused(const std::vector<rgbd::Keyframe>& keyframes, const CloudFusionOptions& options = {})
+CloudFusionResult fused(const std::vector<rgbd::View>& views, const CloudFusionOptions& options = {})
 {
   base::JobControl control;
-  return fuse(keyframes, options, control);
+  return fuse(views, options, control);
 }
 
 SyntheticScene sphereOnTable()
@@ -58,16 +57,16 @@ SyntheticScene sphereOnTable()
 }
 
 /// Images are shared between the copies: replace, do not write.
-const std::vector<rgbd::Keyframe>& noisySphere()
+const std::vector<rgbd::View>& noisySphere()
 {
-  static const std::vector<rgbd::Keyframe> keyframes = keyframesOf(sphereOnTable(), 16, realNoise());
-  return keyframes;
+  static const std::vector<rgbd::View> views = viewsOf(sphereOnTable(), 16, realNoise());
+  return views;
 }
 
-const std::vector<rgbd::Keyframe>& noisyBox()
+const std::vector<rgbd::View>& noisyBox()
 {
-  static const std::vector<rgbd::Keyframe> keyframes = keyframesOf(test_support::boxOnTable(), 12, realNoise());
-  return keyframes;
+  static const std::vector<rgbd::View> views = viewsOf(test_support::boxOnTable(), 12, realNoise());
+  return views;
 }
 
 struct Deviation
@@ -103,7 +102,7 @@ TEST_P(PlaneAt, StaysWhereItIs)
   CloudFusionOptions options;
   options.resolution_m = 0.004;
   const CloudFusionResult result =
-      fused(test_support::renderKeyframes(scene, test_support::vgaCamera(), poses, realNoise()), options);
+      fused(test_support::renderViews(scene, test_support::vgaCamera(), poses, realNoise()), options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   double sum_m = 0, square_sum = 0;
   int count = 0;
@@ -154,7 +153,7 @@ TEST(CloudFusion, SphereFromNoisyViews)
 TEST(CloudFusion, ExactDepthGivesTheExactSphere)
 {
   const SyntheticScene scene = sphereOnTable();
-  const CloudFusionResult result = fused(keyframesOf(scene, 12));
+  const CloudFusionResult result = fused(viewsOf(scene, 12));
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   const Deviation error = deviation(result.cloud, scene.objects[0]);
   EXPECT_LT(error.mean_absolute_m, 5e-5);
@@ -165,7 +164,7 @@ TEST(CloudFusion, ThinPlateKeepsItsTwoSides)
 {
   SyntheticScene scene;
   scene.objects.push_back(test_support::standingBox({ 0.1, 0.003, 0.1 }));
-  const CloudFusionResult result = fused(keyframesOf(scene, 16, realNoise()));
+  const CloudFusionResult result = fused(viewsOf(scene, 16, realNoise()));
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   double front_sum_m = 0, back_sum_m = 0;
   int front = 0, back = 0;
@@ -185,17 +184,17 @@ TEST(CloudFusion, ThinPlateKeepsItsTwoSides)
   EXPECT_NEAR(back_sum_m / back, -0.0015, 3e-4);
 }
 
-/// A patch of the object in one keyframe, displaced along the rays.
-void displacePatch(double offset_m, rgbd::Keyframe* keyframe)
+/// A patch of the object in one view, displaced along the rays.
+void displacePatch(double offset_m, rgbd::View* view)
 {
-  keyframe->frame.depth_m = keyframe->frame.depth_m.clone();
-  const cv::Mat& mask = keyframe->frame.object_mask;
+  view->frame.depth_m = view->frame.depth_m.clone();
+  const cv::Mat& mask = view->frame.object_mask;
   for (int v = 200; v < 260; ++v)
   {
     for (int u = 290; u < 350; ++u)
     {
       if (mask.at<unsigned char>(v, u))
-        keyframe->frame.depth_m.at<float>(v, u) += static_cast<float>(offset_m);
+        view->frame.depth_m.at<float>(v, u) += static_cast<float>(offset_m);
     }
   }
 }
@@ -205,11 +204,11 @@ TEST(CloudFusion, DropsWhatFliesInFrontAndWhatLiesInside)
   const test_support::SceneObject sphere = sphereOnTable().objects[0];
   for (const double offset_m : { -0.2, -0.02, 0.02, 0.05 })
   {
-    std::vector<rgbd::Keyframe> keyframes = noisySphere();
-    displacePatch(offset_m, &keyframes[0]);
+    std::vector<rgbd::View> views = noisySphere();
+    displacePatch(offset_m, &views[0]);
     CloudFusionOptions options;
     options.min_views = offset_m < 0 ? 1 : 2;  // what lies inside contradicts nobody: it takes a second view
-    const CloudFusionResult result = fused(keyframes, options);
+    const CloudFusionResult result = fused(views, options);
     ASSERT_TRUE(result.status.ok()) << result.status.message;
     EXPECT_LT(deviation(result.cloud, sphere).largest_m, 0.007) << offset_m;
     if (offset_m < 0)
@@ -221,10 +220,10 @@ TEST(CloudFusion, DropsWhatFliesInFrontAndWhatLiesInside)
 
 TEST(CloudFusion, OneWrongViewDoesNotCarveTheSurfaceAway)
 {
-  std::vector<rgbd::Keyframe> keyframes = noisySphere();
-  const std::size_t whole = fused(keyframes).cloud.size();
-  displacePatch(0.5, &keyframes[0]);  // it now sees through the object
-  const CloudFusionResult result = fused(keyframes);
+  std::vector<rgbd::View> views = noisySphere();
+  const std::size_t whole = fused(views).cloud.size();
+  displacePatch(0.5, &views[0]);  // it now sees through the object
+  const CloudFusionResult result = fused(views);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_GT(static_cast<double>(result.cloud.size()), 0.94 * static_cast<double>(whole));
 }
@@ -232,14 +231,14 @@ TEST(CloudFusion, OneWrongViewDoesNotCarveTheSurfaceAway)
 TEST(CloudFusion, NoTableRimWhereSomeMasksAreTooLarge)
 {
   const SyntheticScene scene = test_support::boxOnTable();
-  std::vector<rgbd::Keyframe> keyframes = noisyBox();
-  for (std::size_t i = 0; i < keyframes.size(); i += 3)
+  std::vector<rgbd::View> views = noisyBox();
+  for (std::size_t i = 0; i < views.size(); i += 3)
   {
     cv::Mat too_large;
-    cv::dilate(keyframes[i].frame.object_mask, too_large, cv::Mat::ones(11, 11, CV_8UC1));
-    keyframes[i].frame.object_mask = too_large;
+    cv::dilate(views[i].frame.object_mask, too_large, cv::Mat::ones(11, 11, CV_8UC1));
+    views[i].frame.object_mask = too_large;
   }
-  const CloudFusionResult result = fused(keyframes);
+  const CloudFusionResult result = fused(views);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_LT(deviation(result.cloud, scene.objects[0]).largest_m, 0.005);
 }
@@ -247,10 +246,10 @@ TEST(CloudFusion, NoTableRimWhereSomeMasksAreTooLarge)
 TEST(CloudFusion, NothingOutsideTheMasks)
 {
   const SyntheticScene scene = test_support::boxOnTable();
-  std::vector<rgbd::Keyframe> keyframes = keyframesOf(scene, 12);
-  for (rgbd::Keyframe& keyframe : keyframes)
-    keyframe.frame.object_mask.rowRange(240, 480).setTo(0);
-  const CloudFusionResult result = fused(keyframes);
+  std::vector<rgbd::View> views = viewsOf(scene, 12);
+  for (rgbd::View& view : views)
+    view.frame.object_mask.rowRange(240, 480).setTo(0);
+  const CloudFusionResult result = fused(views);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   for (const Eigen::Vector3f& point : result.cloud.points)
     EXPECT_GT(point.z(), 0.04f);
@@ -260,15 +259,15 @@ TEST(CloudFusion, ExposureDifferencesDoNotMottleTheColour)
 {
   SyntheticScene scene = sphereOnTable();
   scene.objects[0].texture = test_support::plainTexture({ 60, 120, 180 });
-  std::vector<rgbd::Keyframe> keyframes = keyframesOf(scene, 12);
-  const FusedCloud even = fused(keyframes).cloud;
-  for (std::size_t i = 0; i < keyframes.size(); i += 2)
+  std::vector<rgbd::View> views = viewsOf(scene, 12);
+  const FusedCloud even = fused(views).cloud;
+  for (std::size_t i = 0; i < views.size(); i += 2)
   {
     cv::Mat darker;
-    keyframes[i].frame.color_bgr.convertTo(darker, -1, 0.8);
-    keyframes[i].frame.color_bgr = darker;
+    views[i].frame.color_bgr.convertTo(darker, -1, 0.8);
+    views[i].frame.color_bgr = darker;
   }
-  const FusedCloud uneven = fused(keyframes).cloud;
+  const FusedCloud uneven = fused(views).cloud;
   ASSERT_GT(even.size(), 1000u);
   ASSERT_EQ(even.size(), uneven.size());
   double sum = 0, square_sum = 0;
@@ -299,21 +298,21 @@ std::string bytesOf(const CloudFusionResult& result)
 
 TEST(CloudFusion, SameInputGivesTheSameBytesOnAnyNumberOfThreads)
 {
-  const std::vector<rgbd::Keyframe>& keyframes = noisyBox();
+  const std::vector<rgbd::View>& views = noisyBox();
   const int threads = omp_get_max_threads();
   omp_set_num_threads(1);
-  const std::string on_one = bytesOf(fused(keyframes));
+  const std::string on_one = bytesOf(fused(views));
   omp_set_num_threads(3);
-  const std::string on_three = bytesOf(fused(keyframes));
+  const std::string on_three = bytesOf(fused(views));
   omp_set_num_threads(threads);
   EXPECT_FALSE(on_one.empty());
   EXPECT_EQ(on_one, on_three);
 }
 
-void expectNoResult(const std::vector<rgbd::Keyframe>& keyframes, const std::string& reason,
+void expectNoResult(const std::vector<rgbd::View>& views, const std::string& reason,
                     const CloudFusionOptions& options = {})
 {
-  const CloudFusionResult result = fused(keyframes, options);
+  const CloudFusionResult result = fused(views, options);
   EXPECT_EQ(result.status.code, base::StatusCode::NO_RESULT);
   EXPECT_NE(result.status.message.find(reason), std::string::npos) << result.status.message;
   EXPECT_EQ(result.cloud.size(), 0u);
@@ -323,12 +322,12 @@ TEST(CloudFusion, NamesTheStepThatLeftNothing)
 {
   expectNoResult({}, "mask");
 
-  std::vector<rgbd::Keyframe> keyframes = keyframesOf(test_support::boxOnTable(), 4);
+  std::vector<rgbd::View> views = viewsOf(test_support::boxOnTable(), 4);
   CloudFusionOptions many_views;
   many_views.min_views = 5;
-  expectNoResult(keyframes, "min_views = 5", many_views);
+  expectNoResult(views, "min_views = 5", many_views);
 
-  std::vector<rgbd::Keyframe> without_depth = keyframes, without_masks = keyframes, with_empty_masks = keyframes;
+  std::vector<rgbd::View> without_depth = views, without_masks = views, with_empty_masks = views;
   for (int i = 0; i < 4; ++i)
   {
     without_masks[i].frame.object_mask = cv::Mat();
@@ -340,17 +339,17 @@ TEST(CloudFusion, NamesTheStepThatLeftNothing)
   expectNoResult(without_depth, "has depth");
 }
 
-TEST(CloudFusion, KeyframesWithoutMaskAreNoTrouble)
+TEST(CloudFusion, ViewsWithoutMaskAreNoTrouble)
 {
-  std::vector<rgbd::Keyframe> keyframes = noisyBox();
-  keyframes[2].frame.object_mask = cv::Mat();
-  keyframes[5].frame.object_mask = cv::Mat(480, 640, CV_8UC1, cv::Scalar(0));
-  EXPECT_TRUE(fused(keyframes).status.ok());
+  std::vector<rgbd::View> views = noisyBox();
+  views[2].frame.object_mask = cv::Mat();
+  views[5].frame.object_mask = cv::Mat(480, 640, CV_8UC1, cv::Scalar(0));
+  EXPECT_TRUE(fused(views).status.ok());
 }
 
 TEST(CloudFusion, StopsWhenCancelled)
 {
-  const std::vector<rgbd::Keyframe>& keyframes = noisyBox();
+  const std::vector<rgbd::View>& views = noisyBox();
   for (const std::size_t stage : { 0, 2, 4 })
   {
     base::JobControl* running = nullptr;
@@ -361,7 +360,7 @@ TEST(CloudFusion, StopsWhenCancelled)
             running->cancel();
         });
     running = &control;
-    EXPECT_THROW(fuse(keyframes, {}, control), base::Cancelled) << stage;
+    EXPECT_THROW(fuse(views, {}, control), base::Cancelled) << stage;
   }
 }
 

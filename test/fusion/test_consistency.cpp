@@ -16,19 +16,19 @@ class Wall : public testing::Test
 protected:
   Wall()
   {
-    rgbd::Keyframe keyframe;
-    keyframe.frame.camera = test_support::vgaCamera();
-    keyframe.frame.depth_m = cv::Mat(480, 640, CV_32FC1, cv::Scalar(1));
-    keyframe.frame.object_mask = cv::Mat::zeros(480, 640, CV_8UC1);
-    keyframe.frame.object_mask.colRange(0, 320).setTo(255);
-    keyframes_.push_back(keyframe);
+    rgbd::View view;
+    view.frame.camera = test_support::vgaCamera();
+    view.frame.depth_m = cv::Mat(480, 640, CV_32FC1, cv::Scalar(1));
+    view.frame.object_mask = cv::Mat::zeros(480, 640, CV_8UC1);
+    view.frame.object_mask.colRange(0, 320).setTo(255);
+    views_.push_back(view);
   }
   Votes vote(const Eigen::Vector3f& point, const Eigen::Vector3f& normal = { 0, 0, -1 }) const
   {
-    return castVotes(prepareViews(keyframes_), { point, normal, point, 0.001f }, 3.0);
+    return castVotes(prepareViews(views_), { point, normal, point, 0.001f }, 3.0);
   }
 
-  std::vector<rgbd::Keyframe> keyframes_;
+  std::vector<rgbd::View> views_;
 };
 
 TEST_F(Wall, UpholdsWhatLiesOnIt)
@@ -70,7 +70,7 @@ TEST_F(Wall, KnowsNothingBeyondItsImageAndBehindTheCamera)
 TEST_F(Wall, ANeighbouringSurfaceIsNotSeenThrough)
 {
   // A thin rod at 0.9 m that the lateral noise has moved by one pixel.
-  keyframes_[0].frame.depth_m.col(321).setTo(0.9f);
+  views_[0].frame.depth_m.col(321).setTo(0.9f);
   const auto camera = test_support::vgaCamera();
   EXPECT_EQ(vote(camera.unproject(320, 240, 0.9).cast<float>()).seen_through, 0);
   EXPECT_EQ(vote(camera.unproject(318, 240, 0.9).cast<float>()).seen_through, 1);
@@ -79,28 +79,28 @@ TEST_F(Wall, ANeighbouringSurfaceIsNotSeenThrough)
 TEST_F(Wall, NoiseThatReachesTheSurfaceIsNotSeenThrough)
 {
   // A post at 0.9 m; a point 5 px beside it that may as well lie on it.
-  keyframes_[0].frame.depth_m.colRange(310, 321).setTo(0.9f);
+  views_[0].frame.depth_m.colRange(310, 321).setTo(0.9f);
   const auto camera = test_support::vgaCamera();
   const Eigen::Vector3f beside = camera.unproject(325, 240, 0.9).cast<float>();
   const Eigen::Vector3f on_post = camera.unproject(318, 240, 0.9).cast<float>();
-  const std::vector<View> views = prepareViews(keyframes_);
+  const std::vector<PreparedView> views = prepareViews(views_);
   EXPECT_EQ(castVotes(views, { beside, { 1, 0, 0 }, beside, 0.001f }, 3.0).seen_through, 1);
   EXPECT_EQ(castVotes(views, { beside, { 1, 0, 0 }, on_post, 0.001f }, 3.0).seen_through, 0);
 }
 
 TEST_F(Wall, MissingDepthHasNoVote)
 {
-  keyframes_[0].frame.depth_m.setTo(std::numeric_limits<float>::quiet_NaN());
+  views_[0].frame.depth_m.setTo(std::numeric_limits<float>::quiet_NaN());
   const Votes votes = vote({ 0, 0, 0.95f });
   EXPECT_EQ(votes.seen_through + votes.same, 0);
 }
 
 TEST_F(Wall, OfManyViewsSomeHaveAVoteEvenly)
 {
-  keyframes_.resize(200, keyframes_.front());
+  views_.resize(200, views_.front());
   EXPECT_EQ(vote({ 0, 0, 1 }).same, 64);
-  for (std::size_t k = 100; k < keyframes_.size(); ++k)
-    keyframes_[k].frame.depth_m = cv::Mat(480, 640, CV_32FC1, cv::Scalar(2));
+  for (std::size_t k = 100; k < views_.size(); ++k)
+    views_[k].frame.depth_m = cv::Mat(480, 640, CV_32FC1, cv::Scalar(2));
   const Votes votes = vote({ 0, 0, 1 });
   EXPECT_EQ(votes.same, 32);
   EXPECT_EQ(votes.seen_through, 32);

@@ -31,18 +31,10 @@ inline test_support::SensorNoise sensorNoise()
 }
 
 /// Views all the way round, at 320 x 240 px, with exact poses.
-inline std::vector<rgbd::Keyframe> viewsRound(const test_support::SyntheticScene& scene, int count)
+inline std::vector<rgbd::View> viewsRound(const test_support::SyntheticScene& scene, int count)
 {
-  return test_support::renderKeyframes(scene, test_support::vgaCamera().scaled(0.5),
-                                       test_support::orbitPoses(count, { 0, 0, 0.08 }, 0.6), sensorNoise());
-}
-
-inline std::vector<Eigen::Isometry3d> posesOf(const std::vector<rgbd::Keyframe>& keyframes)
-{
-  std::vector<Eigen::Isometry3d> poses;
-  for (const rgbd::Keyframe& keyframe : keyframes)
-    poses.push_back(keyframe.T_session_camera);
-  return poses;
+  return test_support::renderViews(scene, test_support::vgaCamera().scaled(0.5),
+                                   test_support::orbitPoses(count, { 0, 0, 0.08 }, 0.6), sensorNoise());
 }
 
 }  // namespace object_modelling::multi_view_icp

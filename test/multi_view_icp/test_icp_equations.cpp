@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
+#include <opencv2/imgproc.hpp>
 
 #include "icp_problem.h"
 #include "icp_scene.h"
@@ -19,14 +20,14 @@ class IcpEquationsTest : public ::testing::Test
 protected:
   IcpEquationsTest()
   {
-    keyframes_ = test_support::renderKeyframes(
+    views_ = test_support::renderViews(
         test_support::boxOnTable(), test_support::vgaCamera().scaled(0.5),
         { test_support::orbitPose({ 0, 0, 0.1 }, 0.7, 0, 0.6), test_support::orbitPose({ 0, 0, 0.1 }, 0.7, 0.3, 0.5) },
         sensorNoise());
-    keyframes_ = test_support::perturbed(keyframes_, 0.002, 0.003);
+    views_ = test_support::perturbed(views_, 0.002, 0.003);
   }
 
-  std::vector<rgbd::Keyframe> keyframes_;
+  std::vector<rgbd::View> views_;
   base::JobControl control_;
 };
 
@@ -50,8 +51,8 @@ TEST_F(IcpEquationsTest, GradientIsThatOfTheCost)
   {
     MultiViewIcpOptions options;
     options.color_weight = color_weight;
-    const IcpView a(keyframes_[0].frame, options), b(keyframes_[1].frame, options);
-    const Eigen::Isometry3d T_a_b = keyframes_[0].T_session_camera.inverse() * keyframes_[1].T_session_camera;
+    const IcpView a(views_[0], options), b(views_[1], options);
+    const Eigen::Isometry3d T_a_b = views_[0].T_world_camera.inverse() * views_[1].T_world_camera;
     IcpStage stage;
     stage.gate_m = 0.01;
     stage.min_normal_cosine = 0.8;
@@ -71,13 +72,13 @@ TEST_F(IcpEquationsTest, GradientIsThatOfTheCost)
 TEST_F(IcpEquationsTest, PairsAreInTheSessionFrame)
 {
   const MultiViewIcpOptions options;
-  IcpProblem problem(keyframes_, options, { { 0, 1, 1.0 } }, &control_);
+  IcpProblem problem(views_, options, { { 0, 1, 1.0 } }, &control_);
   // A session frame away from both cameras, so that frames mixed up would show.
   geometry::Vector6d away;
   away << 0.3, -0.2, 0.5, 0.4, 1.0, -0.3;
   std::vector<Eigen::Isometry3d> poses;
-  for (const rgbd::Keyframe& keyframe : keyframes_)
-    poses.push_back(geometry::isometryFromVector(away) * keyframe.T_session_camera);
+  for (const rgbd::View& view : views_)
+    poses.push_back(geometry::isometryFromVector(away) * view.T_world_camera);
   problem.match(poses, { 0.01, 0.8, 0, 1 });
   const std::vector<PairEquations> pairs = problem.equations(poses);
   ASSERT_EQ(pairs.size(), 1U);
@@ -134,8 +135,8 @@ TEST(IcpSystem, SolvesWhatADenseSolverDoes)
 
 TEST(NearestPoints, AreNearest)
 {
-  const std::vector<rgbd::Keyframe> keyframes = viewsRound(plainScene({ test_support::standingSphere(0.16) }), 1);
-  const IcpView view(keyframes[0].frame, {});
+  const std::vector<rgbd::View> views = viewsRound(plainScene({ test_support::standingSphere(0.16) }), 1);
+  const IcpView view(views[0], {});
   const NearestPoints nearest(view);
   for (std::size_t i = 0; i < view.surfacePoints().size(); i += 50)
   {
@@ -156,21 +157,36 @@ TEST(NearestPoints, AreNearest)
 
 TEST(IcpView, PointsAreSpreadOverTheNormals)
 {
-  const std::vector<rgbd::Keyframe> keyframes =
+  const std::vector<rgbd::View> views =
       viewsRound(plainScene({ test_support::standingBox({ 0.08, 0.12, 0.16 }, 0, 0, 0.6) }), 1);
   MultiViewIcpOptions options;
   options.points_per_keyframe = 900;
-  const IcpView view(keyframes[0].frame, options);
+  const IcpView view(views[0], options);
   EXPECT_LE(view.surfacePoints().size(), 910U);
   EXPECT_GT(view.surfacePoints().size(), 700U);
   int upright = 0;
   for (const IcpPoint& point : view.surfacePoints())
   {
     EXPECT_LT(point.n.dot(point.p), 0);
-    upright += (keyframes[0].T_session_camera.linear().cast<float>() * point.n).z() > 0.9F;
+    upright += (views[0].T_world_camera.linear().cast<float>() * point.n).z() > 0.9F;
   }
   // The table is nine tenths of the picture and has one direction of several.
   EXPECT_LT(upright, 700);
+}
+
+TEST(IcpView, TakesGreyLevelsByTheOffsetOfItsView)
+{
+  constexpr int OFFSET_PX = 4;
+  const rgbd::View registered = viewsRound(test_support::boxOnTable(), 1).front();
+  rgbd::View shifted = registered;
+  cv::Mat wide;
+  cv::copyMakeBorder(registered.frame.gray, wide, 0, 0, OFFSET_PX, 0, cv::BORDER_REPLICATE);
+  shifted.frame.gray = wide.colRange(0, registered.frame.gray.cols).clone();
+  shifted.color_offset_px = { OFFSET_PX, 0 };
+  const cv::Mat expected = IcpView(registered, {}).images().front().gray,
+                found = IcpView(shifted, {}).images().front().gray;
+  const cv::Range inside(0, expected.cols - OFFSET_PX);
+  EXPECT_EQ(cv::norm(found.colRange(inside), expected.colRange(inside), cv::NORM_INF), 0);
 }
 
 TEST(IcpSystem, NothingToMoveIsNoMotion)

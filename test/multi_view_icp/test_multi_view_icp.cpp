@@ -35,23 +35,23 @@ protected:
   {
     ASSERT_TRUE(result.status.ok()) << result.status.message;
     EXPECT_TRUE(result.left_out.empty());
-    const test_support::PoseError error = test_support::largestError(result.T_session_camera, truth_);
+    const test_support::PoseError error = test_support::largestError(result.T_world_camera, truth_);
     EXPECT_LT(error.translation_m, metres);
     EXPECT_LT(error.rotation_rad, radians);
   }
-  MultiViewIcpResult refine(const std::vector<rgbd::Keyframe>& keyframes)
+  MultiViewIcpResult refine(const std::vector<rgbd::View>& views)
   {
-    return refineByMultiViewIcp(keyframes, options_, control_);
+    return refineByMultiViewIcp(views, options_, control_);
   }
 
-  static std::vector<rgbd::Keyframe> truth_;
+  static std::vector<rgbd::View> truth_;
   MultiViewIcpOptions options_;
   base::JobControl control_;
 };
-std::vector<rgbd::Keyframe> MultiViewIcp::truth_;
+std::vector<rgbd::View> MultiViewIcp::truth_;
 }  // namespace
 
-TEST_F(MultiViewIcp, BringsDisturbedKeyframesBackWithoutTexture)
+TEST_F(MultiViewIcp, BringsDisturbedViewsBackWithoutTexture)
 {
   for (const unsigned seed : { 3U, 4U })
     expectBack(refine(test_support::perturbed(truth_, OFF_M, OFF_RAD, seed)));
@@ -68,9 +68,9 @@ TEST_F(MultiViewIcp, ComesBackFromEitherSide)
   {
     geometry::Vector6d off;
     off << 0.003, -0.003, 0.003, 0.02, 0.02, -0.02;
-    std::vector<rgbd::Keyframe> keyframes = truth_;
-    keyframes[5].T_session_camera = keyframes[5].T_session_camera * geometry::isometryFromVector(sign * off);
-    expectBack(refine(keyframes));
+    std::vector<rgbd::View> views = truth_;
+    views[5].T_world_camera = views[5].T_world_camera * geometry::isometryFromVector(sign * off);
+    expectBack(refine(views));
   }
 }
 
@@ -83,8 +83,7 @@ TEST_F(MultiViewIcp, ReportsWhatItDid)
   ASSERT_EQ(result.residuals.size(), truth_.size());
   for (std::size_t k = 0; k < truth_.size(); ++k)
   {
-    const IcpKeyframeResidual& residual = result.residuals[k];
-    EXPECT_EQ(residual.keyframe_id, truth_[k].id);
+    const IcpViewResidual& residual = result.residuals[k];
     EXPECT_GT(residual.point_count, 1000);
     EXPECT_GT(residual.inlier_ratio, 0.8);
     EXPECT_LT(residual.rmse_after_m, 0.003);
@@ -93,11 +92,11 @@ TEST_F(MultiViewIcp, ReportsWhatItDid)
   std::vector<int> partners(truth_.size(), 0);
   for (const IcpPair& pair : result.pairs)
   {
-    ASSERT_LT(pair.keyframe_a, pair.keyframe_b);
+    ASSERT_LT(pair.view_a, pair.view_b);
     EXPECT_GE(pair.overlap_ratio, options_.min_overlap_ratio);
     EXPECT_LE(pair.overlap_ratio, 1);
-    ++partners[pair.keyframe_a];
-    ++partners[pair.keyframe_b];
+    ++partners[pair.view_a];
+    ++partners[pair.view_b];
   }
   EXPECT_GE(*std::min_element(partners.begin(), partners.end()), 2);
   EXPECT_TRUE(result.free_directions.empty());
@@ -112,7 +111,7 @@ TEST_F(MultiViewIcp, CovarianceIsThatOfTheErrors)
   for (std::size_t k = 1; k < truth_.size(); ++k)
   {
     const geometry::Vector6d error =
-        geometry::vectorFromIsometry(truth_[k].T_session_camera * result.T_session_camera[k].inverse());
+        geometry::vectorFromIsometry(truth_[k].T_world_camera * result.T_world_camera[k].inverse());
     const Eigen::LLT<geometry::Matrix6d> llt(result.covariance[k]);
     ASSERT_EQ(llt.info(), Eigen::Success) << k;
     sum += error.dot(llt.solve(error));
@@ -124,17 +123,17 @@ TEST_F(MultiViewIcp, CovarianceIsThatOfTheErrors)
 
 TEST_F(MultiViewIcp, SameBitsOnAnyNumberOfThreads)
 {
-  const std::vector<rgbd::Keyframe> keyframes = test_support::perturbed(truth_, OFF_M, OFF_RAD);
+  const std::vector<rgbd::View> views = test_support::perturbed(truth_, OFF_M, OFF_RAD);
   options_.threads = 1;
-  const MultiViewIcpResult one = refine(keyframes);
+  const MultiViewIcpResult one = refine(views);
   for (const int threads : { 2, 5 })
   {
     options_.threads = threads;
-    const MultiViewIcpResult several = refine(keyframes);
+    const MultiViewIcpResult several = refine(views);
     EXPECT_EQ(one.rmse_m, several.rmse_m);
-    for (std::size_t k = 0; k < keyframes.size(); ++k)
+    for (std::size_t k = 0; k < views.size(); ++k)
     {
-      EXPECT_EQ(one.T_session_camera[k].matrix(), several.T_session_camera[k].matrix()) << k;
+      EXPECT_EQ(one.T_world_camera[k].matrix(), several.T_world_camera[k].matrix()) << k;
       EXPECT_EQ(one.covariance[k], several.covariance[k]) << k;
     }
   }
@@ -148,39 +147,38 @@ TEST_F(MultiViewIcp, NearestPointsDoAsWell)
 
 TEST_F(MultiViewIcp, AlignsSessionsInOneFrame)
 {
-  // Every other keyframe is of a second session, which was placed a little wrong as a whole.
-  std::vector<rgbd::Keyframe> keyframes = truth_;
+  // Every other view is of a second session, which was placed a little wrong as a whole.
+  std::vector<rgbd::View> views = truth_;
   geometry::Vector6d off;
   off << 0.006, -0.004, 0.003, 0.01, -0.01, 0.03;
-  for (std::size_t k = 1; k < keyframes.size(); k += 2)
+  for (std::size_t k = 1; k < views.size(); k += 2)
   {
-    keyframes[k].id = keyframes[k - 1].id;
-    keyframes[k].T_session_camera = geometry::isometryFromVector(off) * keyframes[k].T_session_camera;
+    views[k].session_index = 1;
+    views[k].T_world_camera = geometry::isometryFromVector(off) * views[k].T_world_camera;
   }
-  expectBack(refine(keyframes));
+  expectBack(refine(views));
 }
 
 TEST_F(MultiViewIcp, MovesBodiesAsAWhole)
 {
-  std::vector<rgbd::Keyframe> keyframes = truth_;
+  options_.sessions_as_bodies = true;
+  std::vector<rgbd::View> views = truth_;
   geometry::Vector6d off;
   off << 0.006, -0.004, 0.003, 0.01, -0.01, 0.03;
-  for (std::size_t k = 0; k < keyframes.size(); ++k)
+  for (std::size_t k = 0; k < views.size(); ++k)
   {
-    options_.bodies.push_back(static_cast<int>(k % 2));
+    views[k].session_index = static_cast<int>(k % 2);
     if (k % 2 == 1)
-      keyframes[k].T_session_camera = geometry::isometryFromVector(off) * keyframes[k].T_session_camera;
+      views[k].T_world_camera = geometry::isometryFromVector(off) * views[k].T_world_camera;
   }
-  const MultiViewIcpResult result = refine(keyframes);
+  const MultiViewIcpResult result = refine(views);
   expectBack(result);
-  for (std::size_t k = 2; k < keyframes.size(); ++k)
+  for (std::size_t k = 2; k < views.size(); ++k)
   {
-    const Eigen::Isometry3d was = keyframes[k % 2].T_session_camera.inverse() * keyframes[k].T_session_camera;
-    const Eigen::Isometry3d is = result.T_session_camera[k % 2].inverse() * result.T_session_camera[k];
+    const Eigen::Isometry3d was = views[k % 2].T_world_camera.inverse() * views[k].T_world_camera;
+    const Eigen::Isometry3d is = result.T_world_camera[k % 2].inverse() * result.T_world_camera[k];
     EXPECT_TRUE(is.isApprox(was, 1e-9)) << k;
   }
-  options_.bodies = { 0, 1 };
-  EXPECT_THROW(refine(keyframes), base::Error);
 }
 
 TEST_F(MultiViewIcp, CancelledThrows)
@@ -202,44 +200,43 @@ TEST_F(MultiViewIcp, CancelledThrows)
 TEST_F(MultiViewIcp, StopsAtTheLastIteration)
 {
   options_.max_iterations = 2;
-  const std::vector<rgbd::Keyframe> keyframes = test_support::perturbed(truth_, OFF_M, OFF_RAD);
-  const MultiViewIcpResult result = refine(keyframes);
+  const std::vector<rgbd::View> views = test_support::perturbed(truth_, OFF_M, OFF_RAD);
+  const MultiViewIcpResult result = refine(views);
   EXPECT_EQ(result.status.code, base::StatusCode::NO_RESULT);
   EXPECT_NE(result.status.message.find("max_iterations"), std::string::npos);
   EXPECT_EQ(result.iterations, 2);
-  for (std::size_t k = 0; k < keyframes.size(); ++k)
-    EXPECT_EQ(result.T_session_camera[k].matrix(), keyframes[k].T_session_camera.matrix());
+  for (std::size_t k = 0; k < views.size(); ++k)
+    EXPECT_EQ(result.T_world_camera[k].matrix(), views[k].T_world_camera.matrix());
 }
 
 TEST_F(MultiViewIcp, LeavesOutWhatSeesNothingOfTheRest)
 {
-  std::vector<rgbd::Keyframe> keyframes = test_support::perturbed(truth_, OFF_M, OFF_RAD);
-  keyframes[3].frame.depth_m =
-      cv::Mat(keyframes[3].frame.depth_m.size(), CV_32FC1, cv::Scalar(std::numeric_limits<float>::quiet_NaN()));
-  keyframes[7].T_session_camera.translation() += Eigen::Vector3d(30, 0, 0);
-  keyframes[9].frame = {};
-  const MultiViewIcpResult result = refine(keyframes);
+  std::vector<rgbd::View> views = test_support::perturbed(truth_, OFF_M, OFF_RAD);
+  views[3].frame.depth_m =
+      cv::Mat(views[3].frame.depth_m.size(), CV_32FC1, cv::Scalar(std::numeric_limits<float>::quiet_NaN()));
+  views[7].T_world_camera.translation() += Eigen::Vector3d(30, 0, 0);
+  views[9].frame = {};
+  const MultiViewIcpResult result = refine(views);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_EQ(result.left_out, (std::vector<int>{ 3, 7, 9 }));
   for (const int k : result.left_out)
-    EXPECT_EQ(result.T_session_camera[k].matrix(), keyframes[k].T_session_camera.matrix());
+    EXPECT_EQ(result.T_world_camera[k].matrix(), views[k].T_world_camera.matrix());
 }
 
 TEST_F(MultiViewIcp, LeavesOutWhatDoesNotFit)
 {
-  std::vector<rgbd::Keyframe> keyframes = truth_;
+  std::vector<rgbd::View> views = truth_;
   test_support::SyntheticScene other;
   other.objects = { test_support::standingBox({ 0.3, 0.3, 0.25 }, 0.1, 0.1),
                     test_support::standingCylinder(0.2, 0.3, -0.2) };
   other.has_table = false;
-  keyframes[4].frame =
-      test_support::renderFrame(other, keyframes[4].frame.camera, keyframes[4].T_session_camera, sensorNoise());
-  const MultiViewIcpResult result = refine(keyframes);
+  views[4].frame = test_support::renderFrame(other, views[4].frame.camera, views[4].T_world_camera, sensorNoise());
+  const MultiViewIcpResult result = refine(views);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_EQ(result.left_out, std::vector<int>{ 4 });
-  EXPECT_EQ(result.T_session_camera[4].matrix(), keyframes[4].T_session_camera.matrix());
-  keyframes[4].T_session_camera = result.T_session_camera[4];
-  const test_support::PoseError error = test_support::largestError(result.T_session_camera, truth_);
+  EXPECT_EQ(result.T_world_camera[4].matrix(), views[4].T_world_camera.matrix());
+  views[4].T_world_camera = result.T_world_camera[4];
+  const test_support::PoseError error = test_support::largestError(result.T_world_camera, truth_);
   EXPECT_LT(error.translation_m, 0.0025);
 }
 
@@ -248,12 +245,12 @@ TEST_F(MultiViewIcp, NothingToAlign)
   EXPECT_EQ(refine({}).status.code, base::StatusCode::NO_RESULT);
   const MultiViewIcpResult one = refine({ truth_.front() });
   EXPECT_EQ(one.status.code, base::StatusCode::NO_RESULT);
-  ASSERT_EQ(one.T_session_camera.size(), 1U);
-  EXPECT_EQ(one.T_session_camera[0].matrix(), truth_[0].T_session_camera.matrix());
+  ASSERT_EQ(one.T_world_camera.size(), 1U);
+  EXPECT_EQ(one.T_world_camera[0].matrix(), truth_[0].T_world_camera.matrix());
 
-  std::vector<rgbd::Keyframe> unmasked = truth_;
-  for (rgbd::Keyframe& keyframe : unmasked)
-    keyframe.frame.object_mask.release();
+  std::vector<rgbd::View> unmasked = truth_;
+  for (rgbd::View& view : unmasked)
+    view.frame.object_mask.release();
   options_.object_only = true;
   const MultiViewIcpResult result = refine(unmasked);
   EXPECT_EQ(result.status.code, base::StatusCode::NO_RESULT);
@@ -262,22 +259,22 @@ TEST_F(MultiViewIcp, NothingToAlign)
 
 TEST_F(MultiViewIcp, WorksOnTheMasksAlone)
 {
-  const std::vector<rgbd::Keyframe> printed = viewsRound(test_support::boxOnTable(), VIEWS);
+  const std::vector<rgbd::View> printed = viewsRound(test_support::boxOnTable(), VIEWS);
   options_.object_only = true;
   const MultiViewIcpResult result = refine(test_support::perturbed(printed, OFF_M, OFF_RAD));
   ASSERT_TRUE(result.status.ok()) << result.status.message;
-  EXPECT_LT(test_support::largestError(result.T_session_camera, printed).translation_m, 0.008);
+  EXPECT_LT(test_support::largestError(result.T_world_camera, printed).translation_m, 0.008);
   for (std::size_t k = 0; k < printed.size(); ++k)
   {
     const Eigen::Vector3d p(0, 0, 0.1);
-    const Eigen::Isometry3d off = printed[k].T_session_camera * result.T_session_camera[k].inverse();
+    const Eigen::Isometry3d off = printed[k].T_world_camera * result.T_world_camera[k].inverse();
     EXPECT_LT((off * p - p).norm(), 0.002) << k;
   }
 }
 
 TEST_F(MultiViewIcp, WidthOfABoxSeenFromAllSidesIsNotKnown)
 {
-  const std::vector<rgbd::Keyframe> box =
+  const std::vector<rgbd::View> box =
       viewsRound(plainScene({ test_support::standingBox({ 0.08, 0.12, 0.16 }) }), VIEWS);
   options_.color_weight = 0;
   const MultiViewIcpResult result = refine(box);
@@ -286,7 +283,7 @@ TEST_F(MultiViewIcp, WidthOfABoxSeenFromAllSidesIsNotKnown)
   for (const FreeDirection& free : result.free_directions)
   {
     // Along the table, straight or round a far axis; not off it.
-    const double upright = std::abs(free.axis_session.z());
+    const double upright = std::abs(free.axis_world.z());
     EXPECT_TRUE(free.rotation ? upright > 0.9 : upright < 0.2) << upright;
   }
 }
@@ -301,7 +298,7 @@ TEST_F(MultiViewIcp, RefusesBadOptions)
 
 TEST(MultiViewIcpFreedom, AxisOfASphereOnATableIsNamed)
 {
-  const std::vector<rgbd::Keyframe> truth =
+  const std::vector<rgbd::View> truth =
       viewsRound(plainScene({ test_support::standingSphere(0.16, 0.03, -0.02) }), VIEWS);
   base::JobControl control;
   const MultiViewIcpResult result = refineByMultiViewIcp(truth, {}, control);
@@ -310,9 +307,9 @@ TEST(MultiViewIcpFreedom, AxisOfASphereOnATableIsNamed)
   for (const FreeDirection& free : result.free_directions)
   {
     EXPECT_TRUE(free.rotation);
-    EXPECT_GT(std::abs(free.axis_session.z()), 0.99);
-    EXPECT_NEAR(free.point_on_axis_session.x(), 0.03, 0.05);
-    EXPECT_NEAR(free.point_on_axis_session.y(), -0.02, 0.05);
+    EXPECT_GT(std::abs(free.axis_world.z()), 0.99);
+    EXPECT_NEAR(free.point_on_axis_world.x(), 0.03, 0.05);
+    EXPECT_NEAR(free.point_on_axis_world.y(), -0.02, 0.05);
   }
 }
 
@@ -320,7 +317,7 @@ TEST(MultiViewIcpFreedom, PrintHoldsWhatTheShapeLeavesFree)
 {
   test_support::SyntheticScene scene = plainScene({ test_support::standingCylinder(0.1, 0.14) });
   scene.table.contrast = 0.5F;
-  std::vector<rgbd::Keyframe> truth = viewsRound(scene, VIEWS);
+  std::vector<rgbd::View> truth = viewsRound(scene, VIEWS);
   for (std::size_t k = 0; k < truth.size(); k += 3)
     truth[k].frame.gray = 0.85 * truth[k].frame.gray + 10;  // another exposure
   base::JobControl control;
@@ -329,7 +326,7 @@ TEST(MultiViewIcpFreedom, PrintHoldsWhatTheShapeLeavesFree)
       refineByMultiViewIcp(test_support::perturbed(truth, OFF_M, OFF_RAD), options, control);
   ASSERT_TRUE(with.status.ok()) << with.status.message;
   EXPECT_TRUE(with.free_directions.empty());
-  EXPECT_LT(test_support::largestError(with.T_session_camera, truth).translation_m, 0.002);
+  EXPECT_LT(test_support::largestError(with.T_world_camera, truth).translation_m, 0.002);
   options.color_weight = 0;
   const MultiViewIcpResult without =
       refineByMultiViewIcp(test_support::perturbed(truth, OFF_M, OFF_RAD), options, control);

@@ -27,13 +27,13 @@ mesh::TriangleMesh twoSides(int n)
 }
 
 /// From 0.5 m above the origin straight down; `depth_m` everywhere.
-rgbd::Keyframe fromAbove(float depth_m)
+rgbd::View fromAbove(float depth_m)
 {
-  rgbd::Keyframe view;
+  rgbd::View view;
   view.frame.camera = { 160, 120, 200, 200, 79.5, 59.5, {} };
   view.frame.depth_m = cv::Mat(120, 160, CV_32FC1, cv::Scalar(depth_m));
-  view.T_session_camera.linear() = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()).toRotationMatrix();
-  view.T_session_camera.translation().z() = 0.5;
+  view.T_world_camera.linear() = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  view.T_world_camera.translation().z() = 0.5;
   return view;
 }
 }  // namespace

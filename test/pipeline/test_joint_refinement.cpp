@@ -4,14 +4,15 @@
 
 #include "build_fixture.h"
 #include "object_modelling/geometry/transform.h"
+#include "object_modelling/rgbd/keyframe_view.h"
 #include "support/handheld_trajectory.h"
 
 namespace object_modelling::pipeline
 {
 namespace
 {
-/// Views of the box from about one side, level with it: of its faces they see those towards them alone.
-std::vector<rgbd::Keyframe> viewsFrom(double azimuth_rad, int count)
+/// From about one side of the box, level with it: of its faces they see those towards them alone.
+std::vector<rgbd::Keyframe> keyframesFrom(double azimuth_rad, int count)
 {
   std::vector<Eigen::Isometry3d> poses;
   for (int i = 0; i < count; ++i)
@@ -29,7 +30,7 @@ void storeViews(keyframes::SessionStore& store, const std::string& session_id, d
   session.closed = true;
   session.support_plane_session = geometry::Plane{ Eigen::Vector3d::UnitZ(), 0 };
   store.createSession(session);
-  for (const rgbd::Keyframe& keyframe : viewsFrom(azimuth_rad, count))
+  for (const rgbd::Keyframe& keyframe : keyframesFrom(azimuth_rad, count))
     store.addKeyframe(session_id, keyframe);
 }
 }  // namespace
@@ -48,30 +49,24 @@ TEST(JointRefinement, NamesTheSessionsThatNothingLinks)
 {
   geometry::Vector6d off;
   off << 0.001, -0.001, 0.001, 0.002, -0.002, 0.004;
-  JointRefinement joint;
-  joint.session_ids = { "front", "back", "again" };
-  std::vector<rgbd::Keyframe> keyframes;
+  std::vector<rgbd::View> views;
   for (int session = 0; session < 3; ++session)
   {
-    for (rgbd::Keyframe keyframe : viewsFrom(session == 1 ? M_PI : 0.1 * session, 3))
-    {
-      keyframe.id = static_cast<int>(keyframes.size());
-      if (session > 0)
-        keyframe.T_session_camera = geometry::isometryFromVector(off) * keyframe.T_session_camera;
-      keyframes.push_back(keyframe);
-      joint.sessions.push_back(session);
-    }
+    const Eigen::Isometry3d T_world_session =
+        session > 0 ? geometry::isometryFromVector(off) : Eigen::Isometry3d::Identity();
+    for (const rgbd::Keyframe& keyframe : keyframesFrom(session == 1 ? M_PI : 0.1 * session, 3))
+      views.push_back(rgbd::viewOf(keyframe, T_world_session, session, { 0, 0 }));
   }
-  const std::vector<rgbd::Keyframe> before = keyframes;
+  const std::vector<rgbd::View> before = views;
   base::JobControl control;
-  const std::string message = refineJointly(joint, &keyframes, control);
+  const std::string message = refineJointly({ "front", "back", "again" }, &views, control);
   EXPECT_NE(message.find("'back'"), std::string::npos) << message;
   EXPECT_EQ(message.find("'front'"), std::string::npos) << message;
   EXPECT_EQ(message.find("'again'"), std::string::npos) << message;
   const auto moved = [&](std::size_t k)
-  { return keyframes[k].T_session_camera.matrix() != before[k].T_session_camera.matrix(); };
-  for (std::size_t k = 0; k < keyframes.size(); ++k)
-    EXPECT_EQ(moved(k), joint.sessions[k] == 2) << k;
+  { return views[k].T_world_camera.matrix() != before[k].T_world_camera.matrix(); };
+  for (std::size_t k = 0; k < views.size(); ++k)
+    EXPECT_EQ(moved(k), views[k].session_index == 2) << k;
 }
 
 }  // namespace object_modelling::pipeline

@@ -113,6 +113,7 @@ TEST_F(SessionJobs, RefineByTheMethodAskedFor)
     EXPECT_LT(worstPosition_m(), 0.004);
     const std::vector<rgbd::Keyframe> stored = keyframes::loadKeyframes(*store_, WALK);
     ASSERT_EQ(refined.T_session_camera.size(), stored.size());
+    EXPECT_EQ(refined.keyframe_ids, store_->keyframeIds(WALK));
     for (std::size_t k = 0; k < stored.size(); ++k)
       EXPECT_TRANSFORM_NEAR(refined.T_session_camera[k], stored[k].T_session_camera, 1e-9, 1e-9);
   }

@@ -5,6 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "object_modelling/rgbd/keyframe_view.h"
 #include "support/ray_casting.h"
 #include "support/sensor_simulation.h"
 
@@ -136,6 +137,12 @@ std::vector<rgbd::Keyframe> renderKeyframes(const SyntheticScene& scene, const g
     keyframes.push_back(keyframe);
   }
   return keyframes;
+}
+
+std::vector<rgbd::View> renderViews(const SyntheticScene& scene, const geometry::PinholeCamera& camera,
+                                    const std::vector<Eigen::Isometry3d>& T_world_cameras, const SensorNoise& noise)
+{
+  return rgbd::viewsOf(renderKeyframes(scene, camera, T_world_cameras, noise));
 }
 
 geometry::PinholeCamera vgaCamera()

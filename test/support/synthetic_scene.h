@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "object_modelling/rgbd/keyframe.h"
+#include "object_modelling/rgbd/view.h"
 #include "support/procedural_texture.h"
 
 namespace object_modelling::test_support
@@ -82,6 +83,11 @@ rgbd::Frame renderFrame(const SyntheticScene& scene, const geometry::PinholeCame
 std::vector<rgbd::Keyframe> renderKeyframes(const SyntheticScene& scene, const geometry::PinholeCamera& camera,
                                             const std::vector<Eigen::Isometry3d>& T_world_cameras,
                                             const SensorNoise& noise = {});
+
+/// The same as views.
+std::vector<rgbd::View> renderViews(const SyntheticScene& scene, const geometry::PinholeCamera& camera,
+                                    const std::vector<Eigen::Isometry3d>& T_world_cameras,
+                                    const SensorNoise& noise = {});
 
 /// 640 x 480, f = 525 px.
 geometry::PinholeCamera vgaCamera();

@@ -21,30 +21,35 @@ float shade(const Eigen::Vector3d& p)
   return static_cast<float>(0.45 + 0.4 * p.z() / BOX_HEIGHT_M + 1.5 * p.x());
 }
 
-/// Twice round the box; every second view is under light 1.
-struct TwoLights
+void darken(rgbd::View* view)
 {
-  explicit TwoLights(int count = 16) : keyframes(roundTheBox(boxScene(), count))
+  rgbd::Frame& frame = view->frame;
+  frame.color_bgr = frame.color_bgr.clone();
+  for (int v = 0; v < frame.color_bgr.rows; ++v)
+    for (int u = 0; u < frame.color_bgr.cols; ++u)
+      if (frame.depthAt_m(u, v) > 0)
+        frame.color_bgr.at<cv::Vec3b>(v, u) *= shade(view->T_world_camera * frame.point(u, v).cast<double>());
+}
+
+/// Twice round the box; every second view is of session 1, under light 1.
+std::vector<rgbd::View> underTwoLights()
+{
+  std::vector<rgbd::View> views = roundTheBox(boxScene(), 16);
+  for (std::size_t i = 1; i < views.size(); i += 2)
   {
-    for (std::size_t i = 0; i < keyframes.size(); ++i)
-    {
-      lights.push_back(static_cast<int>(i % 2));
-      if (lights.back() == 1)
-        darken(&keyframes[i]);
-    }
+    views[i].session_index = 1;
+    darken(&views[i]);
   }
-  static void darken(rgbd::Keyframe* keyframe)
-  {
-    rgbd::Frame& frame = keyframe->frame;
-    frame.color_bgr = frame.color_bgr.clone();
-    for (int v = 0; v < frame.color_bgr.rows; ++v)
-      for (int u = 0; u < frame.color_bgr.cols; ++u)
-        if (frame.depthAt_m(u, v) > 0)
-          frame.color_bgr.at<cv::Vec3b>(v, u) *= shade(keyframe->T_session_camera * frame.point(u, v).cast<double>());
-  }
-  std::vector<rgbd::Keyframe> keyframes;
-  std::vector<int> lights;
-};
+  return views;
+}
+
+/// The same taken for one session's.
+std::vector<rgbd::View> ofOneSession(std::vector<rgbd::View> views)
+{
+  for (rgbd::View& view : views)
+    view.session_index = 0;
+  return views;
+}
 
 double median(std::vector<double> values)
 {
@@ -55,9 +60,9 @@ double median(std::vector<double> values)
 
 TEST(LightLevelling, FindsTheRatioOfTheLights)
 {
-  const TwoLights scene;
+  const std::vector<rgbd::View> lit = underTwoLights();
   const mesh::TriangleMesh mesh = boxMesh(0.004, false);
-  const std::vector<TextureView> views = prepareTextureViews(mesh, scene.keyframes, scene.lights, { 0, 0 });
+  const std::vector<TextureView> views = prepareTextureViews(mesh, lit);
   const VertexWeights weights = weighViews(mesh, views);
   const Exposure exposure = solveExposure(mesh, views, weights);
   ASSERT_EQ(exposure.light_gains.size(), 2u);
@@ -88,14 +93,12 @@ TEST(LightLevelling, FindsTheRatioOfTheLights)
 
 TEST(LightLevelling, LeavesNoSeamsInTheTexture)
 {
-  TwoLights scene;
+  const std::vector<rgbd::View> views = underTwoLights();
   const mesh::TriangleMesh mesh = boxMesh(0.004, false);
   base::JobControl control;
-  TextureOptions levelled;
-  levelled.lights = scene.lights;
-  const TextureResult with = textureMesh(mesh, scene.keyframes, levelled, control);
-  const TextureResult without = textureMesh(mesh, scene.keyframes, {}, control);
-  const std::vector<rgbd::Keyframe> lit = roundTheBox(boxScene(), 16);
+  const TextureResult with = textureMesh(mesh, views, {}, control);
+  const TextureResult without = textureMesh(mesh, ofOneSession(views), {}, control);
+  const std::vector<rgbd::View> lit = roundTheBox(boxScene(), 16);
   const TextureResult truth = textureMesh(mesh, lit, {}, control);
   // What is left of light is smooth: steps are those of the print.
   const auto roughness = [](const TextureResult& result)
@@ -116,30 +119,23 @@ TEST(LightLevelling, LeavesNoSeamsInTheTexture)
 
 TEST(LightLevelling, IsNotNeededUnderOneLight)
 {
-  const std::vector<rgbd::Keyframe> keyframes = roundTheBox(boxScene(), 4);
+  const std::vector<rgbd::View> lit = roundTheBox(boxScene(), 4);
   const mesh::TriangleMesh mesh = boxMesh(0.01, false);
-  for (const std::vector<int>& lights : { std::vector<int>(), std::vector<int>(4, 0) })
-  {
-    const std::vector<TextureView> views = prepareTextureViews(mesh, keyframes, lights, { 0, 0 });
-    EXPECT_TRUE(solveExposure(mesh, views, weighViews(mesh, views)).light_gains.empty());
-  }
+  const std::vector<TextureView> views = prepareTextureViews(mesh, lit);
+  EXPECT_TRUE(solveExposure(mesh, views, weighViews(mesh, views)).light_gains.empty());
 }
 
 TEST(LightLevelling, TakesALightThatMeetsNoOther)
 {
-  // Light 2 has no view at all; light 1 sees nothing of the mesh.
-  std::vector<rgbd::Keyframe> keyframes = roundTheBox(boxScene(), 6);
-  keyframes[5].T_session_camera.translation().x() += 5;
-  TextureOptions options;
-  options.lights = { 0, 0, 0, 0, 0, 1 };
+  std::vector<rgbd::View> views = roundTheBox(boxScene(), 6);
+  views[5].T_world_camera.translation().x() += 5;  // sees nothing of the mesh
+  views[5].session_index = 1;
   base::JobControl control;
-  const TextureResult result = textureMesh(boxMesh(0.01, false), keyframes, options, control);
+  const TextureResult result = textureMesh(boxMesh(0.01, false), views, {}, control);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
-  options.lights = { 0, 0, 0, 3, 3, 3 };
-  EXPECT_TRUE(textureMesh(boxMesh(0.01, false), keyframes, options, control).status.ok());
-  options.lights = { 0, 1 };
-  EXPECT_EQ(textureMesh(boxMesh(0.01, false), keyframes, options, control).status.code,
-            base::StatusCode::INVALID_ARGUMENT);
+  for (const std::size_t k : { 3, 4, 5 })
+    views[k].session_index = 3;  // 1 and 2 have no view at all
+  EXPECT_TRUE(textureMesh(boxMesh(0.01, false), views, {}, control).status.ok());
 }
 
 }  // namespace object_modelling::texture

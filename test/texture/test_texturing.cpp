@@ -15,7 +15,7 @@ namespace
 {
 constexpr double MESH_STEP_M = 0.005;
 
-TextureResult texture(const mesh::TriangleMesh& mesh, const std::vector<rgbd::Keyframe>& views,
+TextureResult texture(const mesh::TriangleMesh& mesh, const std::vector<rgbd::View>& views,
                       const TextureOptions& options = {})
 {
   base::JobControl control;
@@ -24,10 +24,10 @@ TextureResult texture(const mesh::TriangleMesh& mesh, const std::vector<rgbd::Ke
 
 /// Mean difference (gray levels) per channel between the model drawn from a view and what the view ought to show,
 /// within its mask.
-cv::Scalar differenceIn(const rgbd::Keyframe& truth, const mesh::TexturedMesh& textured, double* psnr_dB)
+cv::Scalar differenceIn(const rgbd::View& truth, const mesh::TexturedMesh& textured, double* psnr_dB)
 {
   const mesh::MeshView drawn =
-      mesh::renderTexturedMesh(textured, truth.frame.camera, truth.T_session_camera.inverse(), 3, { 0, 0, 0 });
+      mesh::renderTexturedMesh(textured, truth.frame.camera, truth.T_world_camera.inverse(), 3, { 0, 0, 0 });
   cv::Mat mask = (drawn.triangle_id >= 0) & truth.frame.object_mask, drawn_f, truth_f, difference;
   cv::erode(mask, mask, cv::Mat::ones(5, 5, CV_8UC1));
   drawn.color_bgr.convertTo(drawn_f, CV_32FC3);
@@ -38,7 +38,7 @@ cv::Scalar differenceIn(const rgbd::Keyframe& truth, const mesh::TexturedMesh& t
   return cv::mean(difference, mask);
 }
 
-double psnr_dB(const rgbd::Keyframe& truth, const mesh::TexturedMesh& textured)
+double psnr_dB(const rgbd::View& truth, const mesh::TexturedMesh& textured)
 {
   double value = 0;
   differenceIn(truth, textured, &value);
@@ -46,10 +46,10 @@ double psnr_dB(const rgbd::Keyframe& truth, const mesh::TexturedMesh& textured)
 }
 
 /// Between those of roundTheBox.
-rgbd::Keyframe unusedView(const test_support::SyntheticScene& scene)
+rgbd::View unusedView(const test_support::SyntheticScene& scene)
 {
-  return test_support::renderKeyframes(scene, test_support::vgaCamera(),
-                                       { test_support::orbitPoses(40, { 0, 0, 0.06 }, 0.48, 0.6)[3] })[0];
+  return test_support::renderViews(scene, test_support::vgaCamera(),
+                                   { test_support::orbitPoses(40, { 0, 0, 0.06 }, 0.48, 0.6)[3] })[0];
 }
 
 TEST(Texturing, GivesBackThePrintOfABox)
@@ -67,7 +67,7 @@ TEST(Texturing, GivesBackThePrintOfABox)
 TEST(Texturing, RemovesStepsOfExposureAndWhiteBalance)
 {
   const auto scene = boxScene();
-  std::vector<rgbd::Keyframe> views = roundTheBox(scene, 16);
+  std::vector<rgbd::View> views = roundTheBox(scene, 16);
   for (std::size_t i = 0; i < views.size(); ++i)
   {
     const double blue = i % 2 ? 0.8 : 1.05, red = i % 3 ? 0.85 : 1.1;
@@ -95,8 +95,8 @@ TEST(Texturing, KeepsTheColourOfAnOccluderOffTheObject)
   }
   for (const bool masks : { true, false })
   {
-    std::vector<rgbd::Keyframe> views = roundTheBox(with_occluder, 16);
-    for (rgbd::Keyframe& view : views)
+    std::vector<rgbd::View> views = roundTheBox(with_occluder, 16);
+    for (rgbd::View& view : views)
       if (!masks)
         view.frame.object_mask.release();
     const TextureResult result = texture(boxMesh(MESH_STEP_M, false), views);
@@ -112,7 +112,7 @@ TEST(Texturing, KeepsTheColourOfAnOccluderOffTheObject)
 TEST(Texturing, OutvotesAViewWithAHighlight)
 {
   const auto scene = boxScene();
-  std::vector<rgbd::Keyframe> views = roundTheBox(scene, 24);
+  std::vector<rgbd::View> views = roundTheBox(scene, 24);
   const double undisturbed_dB = psnr_dB(unusedView(scene), texture(boxMesh(MESH_STEP_M, false), views).textured);
   cv::Mat& shiny = views[2].frame.color_bgr;
   shiny = shiny.clone();
@@ -148,21 +148,30 @@ TEST(Texturing, MarksAndFillsWhatNobodySaw)
   EXPECT_LT(result.seen_ratio, 0.86);
 }
 
-TEST(Texturing, FollowsTheOffsetOfTheColourImages)
+TEST(Texturing, FollowsTheOffsetOfEachColourImage)
 {
   const auto scene = boxScene();
-  std::vector<rgbd::Keyframe> views = roundTheBox(scene, 16);
-  for (rgbd::Keyframe& view : views)
+  std::vector<rgbd::View> with_offset = roundTheBox(scene, 16);
+  for (std::size_t i = 0; i < with_offset.size(); ++i)
   {
+    rgbd::View& view = with_offset[i];
+    view.color_offset_px = i % 2 == 0 ? Eigen::Vector2d(3, -2) : Eigen::Vector2d(1, -4);
     cv::Mat shifted;
-    cv::warpAffine(view.frame.color_bgr, shifted, cv::Matx23d(1, 0, 3, 0, 1, -2), view.frame.color_bgr.size());
+    cv::warpAffine(view.frame.color_bgr, shifted,
+                   cv::Matx23d(1, 0, view.color_offset_px.x(), 0, 1, view.color_offset_px.y()),
+                   view.frame.color_bgr.size());
     view.frame.color_bgr = shifted;
   }
-  TextureOptions options;
-  options.color_offset_px = { 3, -2 };
-  const auto mesh = boxMesh(MESH_STEP_M, false);
-  EXPECT_GT(psnr_dB(unusedView(scene), texture(mesh, views, options).textured),
-            psnr_dB(unusedView(scene), texture(mesh, views).textured) + 4);
+  const auto psnrWith = [&](const Eigen::Vector2d& offset_px)
+  {
+    std::vector<rgbd::View> views = with_offset;
+    for (rgbd::View& view : views)
+      view.color_offset_px = offset_px;
+    return psnr_dB(unusedView(scene), texture(boxMesh(MESH_STEP_M, false), views).textured);
+  };
+  const double own_dB = psnr_dB(unusedView(scene), texture(boxMesh(MESH_STEP_M, false), with_offset).textured);
+  EXPECT_GT(own_dB, psnrWith({ 0, 0 }) + 4);
+  EXPECT_GT(own_dB, psnrWith({ 2, -3 }) + 1) << "their mean";
 }
 
 TEST(Texturing, IsTheSameEveryTime)
@@ -177,22 +186,25 @@ TEST(Texturing, IsTheSameEveryTime)
 TEST(Texturing, SaysWhyThereIsNone)
 {
   const auto mesh = boxMesh(0.02, false);
-  std::vector<rgbd::Keyframe> views = roundTheBox(boxScene(), 4);
+  std::vector<rgbd::View> views = roundTheBox(boxScene(), 4);
   EXPECT_EQ(texture({}, views).status.code, base::StatusCode::INVALID_ARGUMENT);
   EXPECT_EQ(texture(mesh, {}).status.code, base::StatusCode::NO_RESULT);
-  for (rgbd::Keyframe& view : views)
+  for (rgbd::View& view : views)
     view.frame.object_mask = cv::Mat::zeros(view.frame.object_mask.size(), CV_8UC1);
   const base::Status no_mask = texture(mesh, views).status;
   EXPECT_EQ(no_mask.code, base::StatusCode::NO_RESULT);
   EXPECT_NE(no_mask.message.find("mask"), std::string::npos) << no_mask.message;
 
   views = roundTheBox(boxScene(), 4);
-  for (rgbd::Keyframe& view : views)
-    view.T_session_camera.translation().z() += 5;
+  for (rgbd::View& view : views)
+    view.T_world_camera.translation().z() += 5;
   EXPECT_EQ(texture(mesh, views).status.code, base::StatusCode::NO_RESULT);
 
   views = roundTheBox(boxScene(), 4);
   views[1].frame.color_bgr = cv::Mat::zeros(10, 10, CV_8UC3);
+  EXPECT_THROW(texture(mesh, views), base::Error);
+  views = roundTheBox(boxScene(), 4);
+  views[1].session_index = -1;
   EXPECT_THROW(texture(mesh, views), base::Error);
   mesh::TriangleMesh broken = mesh;
   broken.triangles[0][1] = 100000;

@@ -64,13 +64,13 @@ inline test_support::SyntheticScene boxScene()
 }
 
 /// Twice round the box, from the side and from above; exact poses, masks of the box.
-inline std::vector<rgbd::Keyframe> roundTheBox(const test_support::SyntheticScene& scene, int count,
-                                               const test_support::SensorNoise& noise = {})
+inline std::vector<rgbd::View> roundTheBox(const test_support::SyntheticScene& scene, int count,
+                                           const test_support::SensorNoise& noise = {})
 {
   std::vector<Eigen::Isometry3d> poses = test_support::orbitPoses(count - count / 2, { 0, 0, 0.06 }, 0.5, 0.3);
   for (const Eigen::Isometry3d& pose : test_support::orbitPoses(count / 2, { 0, 0, 0.06 }, 0.5, 0.9))
     poses.push_back(pose);
-  return test_support::renderKeyframes(scene, test_support::vgaCamera(), poses, noise);
+  return test_support::renderViews(scene, test_support::vgaCamera(), poses, noise);
 }
 
 }  // namespace object_modelling::texture

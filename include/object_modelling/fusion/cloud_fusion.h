@@ -7,8 +7,8 @@
 #include <Eigen/Core>
 
 #include "object_modelling/base/job_control.h"
-#include "object_modelling/rgbd/keyframe.h"
 #include "object_modelling/rgbd/observation_weight.h"
+#include "object_modelling/rgbd/view.h"
 
 namespace object_modelling::fusion
 {
@@ -30,25 +30,22 @@ struct CloudFusionOptions
   double averaging_radius_m = 0.006;  ///< a fused point averages over this neighbourhood, or a wider one far away
   double min_weight = 0.3;            ///< single observations below are not used
   double consistency_sigmas = 3.0;    ///< contradiction by more than so many sigmas of the better observation
-  int min_views = 2;                  ///< fused points seen by fewer keyframes are dropped
+  int min_views = 2;                  ///< fused points seen by fewer are dropped
   rgbd::ObservationWeightOptions weight;
-  /// Pixel of a point in the colour image minus its pixel in the depth image, whose camera the poses are of (see
-  /// bundle_adjustment::BundleAdjustmentResult).
-  Eigen::Vector2d color_offset_px = Eigen::Vector2d::Zero();
   std::vector<std::string> violations() const;
 };
 
 struct CloudFusionResult
 {
   base::Status status;  ///< NO_RESULT: nothing left (no masks, no depth); the message says at which step
-  FusedCloud cloud;     ///< in the frame of the poses
+  FusedCloud cloud;     ///< in the world of the views
   std::size_t observations_used = 0, observations_inconsistent = 0;
 };
 
-/// Noise-weighted fusion of the masked depth of keyframes in one common frame (Aldoma et al. 2015, section 3.4,
-/// corrected: a true weighted mean; points that another view sees through, or that contradict better observations, go).
-/// T_session_camera of every keyframe is taken as given. Deterministic.
-CloudFusionResult fuse(const std::vector<rgbd::Keyframe>& keyframes, const CloudFusionOptions& options,
+/// Noise-weighted fusion of the masked depth of views (Aldoma et al. 2015, section 3.4, corrected: a true weighted
+/// mean; points that another view sees through, or that contradict better observations, go). Their poses are taken as
+/// given. Deterministic.
+CloudFusionResult fuse(const std::vector<rgbd::View>& views, const CloudFusionOptions& options,
                        base::JobControl& control);
 
 }  // namespace object_modelling::fusion

@@ -41,7 +41,8 @@ struct SessionRefinement
   /// OK if one of the steps succeeded. One that fails leaves the poses to the other; both tell their own status. The
   /// message says why other poses than those of the method that was asked for were taken.
   base::Status status;
-  std::vector<Eigen::Isometry3d> T_session_camera;  ///< those that fit best
+  std::vector<int> keyframe_ids;                    ///< of the keyframes, which are multi_view_icp's views
+  std::vector<Eigen::Isometry3d> T_session_camera;  ///< of each of them: those that fit best
   std::string chosen = "live";                      ///< which of those compared they are
   std::vector<ComparedPoses> compared;              ///< empty where frames were corrected on the way
   std::optional<bundle_adjustment::BundleAdjustmentResult> bundle_adjustment;

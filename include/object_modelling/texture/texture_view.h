@@ -6,15 +6,15 @@
 #include <opencv2/core.hpp>
 
 #include "object_modelling/mesh/triangle_mesh.h"
-#include "object_modelling/rgbd/keyframe.h"
+#include "object_modelling/rgbd/view.h"
 
 namespace object_modelling::texture
 {
-/// A keyframe prepared for looking up what it shows of a mesh.
+/// A view prepared for looking up what it shows of a mesh.
 struct TextureView
 {
   const rgbd::Frame* frame = nullptr;
-  int light = 0;  ///< views of one light show a place alike
+  int light = 0;  ///< views of one light, that of their session, show a place alike
   Eigen::Isometry3f T_camera_mesh = Eigen::Isometry3f::Identity();
   Eigen::Vector3f p_mesh_camera = Eigen::Vector3f::Zero();
   Eigen::Vector2f color_offset_px = Eigen::Vector2f::Zero();
@@ -32,11 +32,9 @@ struct Sighting
   Eigen::Vector2f color_px{ 0, 0 };  ///< in the colour image
 };
 
-/// `lights`: per keyframe, or empty. Keyframes without colour image are left out; result[i] tells its keyframe by
+/// The world of the views is the mesh's frame. Views without colour image are left out; result[i] tells its view by
 /// frame. Throws base::Error (BAD_INPUT) for images that do not fit the camera.
-std::vector<TextureView> prepareTextureViews(const mesh::TriangleMesh& mesh,
-                                             const std::vector<rgbd::Keyframe>& keyframes,
-                                             const std::vector<int>& lights, const Eigen::Vector2d& color_offset_px);
+std::vector<TextureView> prepareTextureViews(const mesh::TriangleMesh& mesh, const std::vector<rgbd::View>& views);
 
 Sighting sight(const TextureView& view, const Eigen::Vector3f& p_mesh, const Eigen::Vector3f& n_mesh);
 

@@ -7,7 +7,7 @@
 
 #include "object_modelling/base/job_control.h"
 #include "object_modelling/mesh/textured_mesh.h"
-#include "object_modelling/rgbd/keyframe.h"
+#include "object_modelling/rgbd/view.h"
 
 namespace object_modelling::texture
 {
@@ -22,12 +22,6 @@ struct TextureOptions
   /// Views whose colour (exposure corrected) is further than this from what the others agree on lose their weight:
   /// highlights, shadows, poses that are off. Gray levels, at a place without print; more is allowed at edges.
   double outlier_tolerance = 12;
-  /// Pixel of a point in the colour image minus its pixel in the depth image, whose camera the poses are of (see
-  /// bundle_adjustment::BundleAdjustmentResult).
-  Eigen::Vector2d color_offset_px = Eigen::Vector2d::Zero();
-  /// Per view, from 0: those of one number were taken with the object in one place under one light (one session). Where
-  /// they overlap, others are levelled to the same colour. Empty: all are.
-  std::vector<int> lights;
   std::vector<std::string> violations() const;
 };
 
@@ -44,13 +38,14 @@ struct TextureResult
   std::vector<Eigen::Vector3f> gains;  ///< per view, what its blue, green and red are multiplied by; 1 where not known
 };
 
-/// Paints a mesh with the images of keyframes; T_session_camera holds T_mesh_camera. Views are weighted at every vertex
-/// by resolution, angle, sharpness and distance from the rim of mask and silhouette, without those that are hidden
+/// Paints a mesh with the images of views, whose world is the mesh's frame. Views are weighted at every vertex by
+/// resolution, angle, sharpness and distance from the rim of mask and silhouette, without those that are hidden
 /// there or disagree with the rest; weights fade where a view ends, so that texels, weighted means over the views, have
-/// no seams to be levelled. Exposure and white balance of all views are solved together beforehand. Charts are pieces
+/// no seams to be levelled. Exposure and white balance of all views are solved together beforehand; where views of
+/// several sessions overlap, each under a light of its own, they are levelled to the same colour. Charts are pieces
 /// of surface of about one direction, laid flat. Texels that nobody saw are filled in harmonically and marked.
 /// Deterministic. In the spirit of Waechter et al. 2014, "Let There Be Color!", with blending in place of single views.
-TextureResult textureMesh(const mesh::TriangleMesh& mesh, const std::vector<rgbd::Keyframe>& views,
+TextureResult textureMesh(const mesh::TriangleMesh& mesh, const std::vector<rgbd::View>& views,
                           const TextureOptions& options, base::JobControl& control);
 
 }  // namespace object_modelling::texture

@@ -47,22 +47,25 @@ void addBundle(const bundle_adjustment::BundleAdjustmentResult& result, object_m
   message->left_out.assign(result.left_out.begin(), result.left_out.end());
 }
 
-void addIcp(const multi_view_icp::MultiViewIcpResult& result, object_modelling::SessionRefinement* message)
+void addIcp(const multi_view_icp::MultiViewIcpResult& result, const std::vector<int>& keyframe_ids,
+            object_modelling::SessionRefinement* message)
 {
   message->icp_status = ros_bridge::toMessage(result.status);
   message->icp_iterations = result.iterations;
   message->icp_rmse_m = result.rmse_m;
-  message->icp_left_out.assign(result.left_out.begin(), result.left_out.end());
-  for (const multi_view_icp::IcpKeyframeResidual& residual : result.residuals)
+  for (const int view : result.left_out)
+    message->icp_left_out.push_back(keyframe_ids.at(view));
+  for (std::size_t k = 0; k < result.residuals.size(); ++k)
   {
+    const multi_view_icp::IcpViewResidual& residual = result.residuals[k];
     object_modelling::IcpResidual added;
-    added.keyframe_id = residual.keyframe_id;
+    added.keyframe_id = keyframe_ids.at(k);
     added.point_count = residual.point_count;
     added.rmse_before_m = residual.rmse_before_m;
     added.rmse_after_m = residual.rmse_after_m;
     added.inlier_ratio = residual.inlier_ratio;
     for (const multi_view_icp::FreeDirection& free : result.free_directions)
-      added.free_direction_count += free.keyframe_id == residual.keyframe_id;
+      added.free_direction_count += free.view == static_cast<int>(k);
     message->icp_residuals.push_back(added);
   }
 }
@@ -75,7 +78,7 @@ object_modelling::SessionRefinement toMessage(const std::string& session_id, con
   if (refined.bundle_adjustment)
     addBundle(*refined.bundle_adjustment, &message);
   if (refined.multi_view_icp)
-    addIcp(*refined.multi_view_icp, &message);
+    addIcp(*refined.multi_view_icp, refined.keyframe_ids, &message);
   return message;
 }
 

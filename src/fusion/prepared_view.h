@@ -5,22 +5,23 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
-#include "object_modelling/rgbd/keyframe.h"
+#include "object_modelling/rgbd/view.h"
 
 namespace object_modelling::fusion
 {
-/// A keyframe prepared for looking up what it measured where a point projects.
-struct View
+/// A view prepared for looking up what it measured where a point projects.
+struct PreparedView
 {
   const rgbd::Frame* frame = nullptr;
-  Eigen::Isometry3f T_camera_session = Eigen::Isometry3f::Identity();
-  Eigen::Vector3f p_session_camera = Eigen::Vector3f::Zero();  ///< centre of projection
+  Eigen::Isometry3f T_camera_world = Eigen::Isometry3f::Identity();
+  Eigen::Vector3f p_world_camera = Eigen::Vector3f::Zero();  ///< centre of projection
+  Eigen::Vector2f color_offset_px = Eigen::Vector2f::Zero();
   /// Nearest depth within a pixel's 8 neighbours, infinite where none has depth: a surface that may be displaced by the
   /// lateral noise of a pixel still counts as there.
   cv::Mat nearest_depth_m;
 };
 
-std::vector<View> prepareViews(const std::vector<rgbd::Keyframe>& keyframes);
+std::vector<PreparedView> prepareViews(const std::vector<rgbd::View>& views);
 
 /// Whether a frame brings a mask with anything in it.
 bool hasObject(const rgbd::Frame& frame);
@@ -33,10 +34,10 @@ struct Projection
   int column = 0, row = 0;  ///< pixel
 };
 
-inline Projection project(const View& view, const Eigen::Vector3f& p_session)
+inline Projection project(const PreparedView& view, const Eigen::Vector3f& p_world)
 {
   Projection result;
-  const Eigen::Vector3f p_camera = view.T_camera_session * p_session;
+  const Eigen::Vector3f p_camera = view.T_camera_world * p_world;
   if (!(p_camera.z() > 0))
     return result;
   const geometry::PinholeCamera& camera = view.frame->camera;
