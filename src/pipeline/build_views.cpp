@@ -5,18 +5,6 @@
 
 namespace object_modelling::pipeline
 {
-namespace
-{
-/// Sessions of one camera have one shift, but for errors.
-Eigen::Vector2d meanColorOffset_px(const std::vector<keyframes::Session>& sessions)
-{
-  Eigen::Vector2d sum_px = Eigen::Vector2d::Zero();
-  for (const keyframes::Session& session : sessions)
-    sum_px += session.calibration.color_offset_px;
-  return sum_px / static_cast<double>(sessions.size());
-}
-}  // namespace
-
 std::optional<geometry::Plane> Views::firstSupport() const
 {
   return support_planes_reference.empty() ? std::nullopt : std::make_optional(support_planes_reference.front());
@@ -57,8 +45,6 @@ base::Status loadViews(keyframes::SessionStore& store, const std::vector<alignme
     if (const std::optional<geometry::Plane>& plane = views->sessions.back().support_plane_session)
       views->support_planes_reference.push_back(geometry::transformed(placement.T_reference_session, *plane));
   }
-  for (rgbd::View& view : views->views)
-    view.color_offset_px = meanColorOffset_px(views->sessions);
   return {};
 }
 

@@ -39,7 +39,7 @@ TEST_F(BuildObject, ViewsOfAllSessionsAreInTheReferenceFrame)
     const rgbd::Keyframe keyframe = store_->keyframe(views.origins[k].session_id, views.origins[k].keyframe_id);
     EXPECT_EQ(views.origins[k].session_id, of_box ? "box" : "more") << k;
     EXPECT_EQ(view.session_index, of_box ? 0 : 1) << k;
-    EXPECT_EQ(view.color_offset_px, Eigen::Vector2d(0.25, 0.125)) << k;
+    EXPECT_EQ(view.color_offset_px, of_box ? Eigen::Vector2d(1, 0) : Eigen::Vector2d(-0.5, 0.25)) << k;
     EXPECT_TRANSFORM_NEAR(view.T_world_camera,
                           of_box ? keyframe.T_session_camera : T_reference_more * keyframe.T_session_camera, 1e-12,
                           1e-7);
