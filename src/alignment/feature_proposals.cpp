@@ -1,10 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
-#include <random>
 
 #include <Eigen/Dense>
 
+#include "object_modelling/base/ransac.h"
 #include "object_modelling/geometry/transform.h"
 #include "proposals.h"
 
@@ -52,16 +53,18 @@ std::vector<Proposal> proposeByFeatures(const registration::PartPair& pair, std:
   };
   std::vector<Scored> found;
   const float min_side_m = MIN_SIDE_RATIO * std::min(a.radius_m, b.radius_m);
-  std::mt19937_64 random(seed);
-  for (int sample = 0; sample < SAMPLES && matches.size() >= 3; ++sample)
+  // Every hypothesis that is upheld counts, not only the best.
+  base::SampleDraws<3> draws(matches.size(), seed);
+  for (int drawn = 0; drawn < SAMPLES; ++drawn)
   {
-    const auto draw = [&] { return static_cast<int>(random() % matches.size()); };
-    const std::vector<int> three = { draw(), draw(), draw() };
-    if (!congruent(matches[three[0]], matches[three[1]], min_side_m) ||
-        !congruent(matches[three[1]], matches[three[2]], min_side_m) ||
-        !congruent(matches[three[2]], matches[three[0]], min_side_m))
+    const std::optional<std::array<int, 3>> sample = draws.next();
+    if (!sample)
       continue;
-    std::optional<Eigen::Isometry3f> T = poseFrom(matches, three);
+    const auto& [i, j, k] = *sample;
+    if (!congruent(matches[i], matches[j], min_side_m) || !congruent(matches[j], matches[k], min_side_m) ||
+        !congruent(matches[k], matches[i], min_side_m))
+      continue;
+    std::optional<Eigen::Isometry3f> T = poseFrom(matches, { i, j, k });
     if (!T)
       continue;
     const std::vector<int> first = registration::upholding(matches, *T, MAX_DISTANCE_M);

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
+#include <optional>
 
 #include <Eigen/Cholesky>
 
+#include "object_modelling/base/ransac.h"
 #include "object_modelling/geometry/so3.h"
 #include "object_modelling/geometry/transform.h"
 
@@ -18,6 +19,7 @@ namespace
 constexpr double MIN_TRIPLE_EDGE_M = 0.01;
 constexpr int REFINEMENTS = 8;
 constexpr double CONFIDENCE = 0.999;
+constexpr double SAMPLES_FACTOR = 3;  // of triples of inliers alone, those of near or noisy points still fail
 
 /// Point pairs with the covariance of each end, and a cheap scalar gate for RANSAC.
 struct Prepared
@@ -67,7 +69,7 @@ bool lengthsAgree(const PointPair& first, const PointPair& second, double gate_s
   return std::min(length_a, length_b) > MIN_TRIPLE_EDGE_M && difference * difference < gate_squared_m2;
 }
 
-bool poseOfTriple(const std::vector<PointPair>& pairs, const std::array<int, 3>& triple, Eigen::Isometry3d* T_a_b)
+std::optional<Eigen::Isometry3d> poseOfTriple(const std::vector<PointPair>& pairs, const std::array<int, 3>& triple)
 {
   Eigen::Matrix3Xd p_a(3, 3), p_b(3, 3);
   for (int i = 0; i < 3; ++i)
@@ -76,9 +78,10 @@ bool poseOfTriple(const std::vector<PointPair>& pairs, const std::array<int, 3>&
     p_b.col(i) = pairs[triple[i]].p_b;
   }
   const Eigen::Vector3d across = (p_a.col(1) - p_a.col(0)).cross(p_a.col(2) - p_a.col(0));
-  if (across.norm() < MIN_TRIPLE_EDGE_M * MIN_TRIPLE_EDGE_M)
-    return false;
-  return geometry::rigidTransformFromPoints(p_a, p_b, T_a_b);
+  Eigen::Isometry3d T_a_b;
+  if (across.norm() < MIN_TRIPLE_EDGE_M * MIN_TRIPLE_EDGE_M || !geometry::rigidTransformFromPoints(p_a, p_b, &T_a_b))
+    return std::nullopt;
+  return T_a_b;
 }
 
 int countInliers(const std::vector<PointPair>& pairs, const Prepared& prepared, const Eigen::Isometry3d& T_a_b)
@@ -138,34 +141,31 @@ RelativePose estimateRelativePose(const std::vector<PointPair>& pairs, const rgb
   if (count < 4)
     return result;
   const Prepared prepared = prepare(pairs, frame_a, frame_b, options.gate_sigmas);
-  std::mt19937_64 random(options.seed);
-  std::uniform_int_distribution<int> pick(0, count - 1);
-  int best = 3;
-  double iterations_needed = options.max_iterations;
-  for (int iteration = 0; iteration < std::min<double>(options.max_iterations, iterations_needed); ++iteration)
+  const auto agree = [&](int i, int j)
+  { return lengthsAgree(pairs[i], pairs[j], prepared.gate_squared_m2[i] + prepared.gate_squared_m2[j]); };
+  const auto solve = [&](const std::array<int, 3>& triple) -> std::optional<Eigen::Isometry3d>
   {
-    const std::array<int, 3> triple{ pick(random), pick(random), pick(random) };
-    const auto agree = [&](int i, int j)
-    {
-      return triple[i] != triple[j] &&
-             lengthsAgree(pairs[triple[i]], pairs[triple[j]],
-                          prepared.gate_squared_m2[triple[i]] + prepared.gate_squared_m2[triple[j]]);
-    };
-    Eigen::Isometry3d T_a_b;
-    if (!agree(0, 1) || !agree(1, 2) || !agree(0, 2) || !poseOfTriple(pairs, triple, &T_a_b))
-      continue;
+    const auto& [i, j, k] = triple;
+    if (!agree(i, j) || !agree(j, k) || !agree(i, k))
+      return std::nullopt;
+    return poseOfTriple(pairs, triple);
+  };
+  const auto inlier_ratio = [&](const Eigen::Isometry3d& T_a_b)
+  {
     const int inliers = countInliers(pairs, prepared, T_a_b);
-    if (inliers <= best)
-      continue;
-    best = inliers;
-    result.found = true;
-    result.T_a_b = T_a_b;
-    const double ratio = static_cast<double>(inliers) / count;
-    // Three times the textbook number: of all-inlier triples, those of near or noisy points still fail.
-    iterations_needed = 3 * std::log(1 - CONFIDENCE) / std::log(1 - std::min(0.999, ratio * ratio * ratio));
-  }
-  if (!result.found)
+    return inliers > 3 ? static_cast<double>(inliers) / count : 0;  // no other pair agrees with the triple
+  };
+  base::RansacOptions ransac_options;
+  ransac_options.max_samples = options.max_iterations;
+  ransac_options.confidence_ratio = CONFIDENCE;
+  ransac_options.samples_factor = SAMPLES_FACTOR;
+  ransac_options.seed = options.seed;
+  ransac_options.draw = base::IndexDraw::LIBRARY_DISTRIBUTION;  // models of given recordings stay as they are
+  const auto best = base::ransac<3, Eigen::Isometry3d>(pairs.size(), ransac_options, solve, inlier_ratio);
+  if (!best)
     return result;
+  result.found = true;
+  result.T_a_b = best->model;
   for (int i = 0; i < REFINEMENTS; ++i)
     refineStep(pairs, prepared, options.gate_sigmas, &result.T_a_b);
   result.inliers = inliersOf(result.T_a_b, pairs, prepared, options.gate_sigmas);

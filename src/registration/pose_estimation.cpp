@@ -1,12 +1,14 @@
 #include "object_modelling/registration/pose_estimation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <random>
+#include <optional>
 
 #include <Eigen/Dense>
 
+#include "object_modelling/base/ransac.h"
 #include "object_modelling/base/statistics.h"
 
 namespace object_modelling::registration
@@ -97,17 +99,6 @@ geometry::NormalEquations linearise(const std::vector<Correspondence>& correspon
       add(dp.row(2), p.z() - correspondence.depth_m, depthSigma_m(p.z(), options));
   }
   return equations;
-}
-
-int hypothesesNeeded(double inlier_ratio, const PoseEstimationOptions& options)
-{
-  const double clean = std::pow(inlier_ratio, 3);
-  if (clean <= 1e-6)
-    return options.max_hypotheses;
-  if (clean >= 1 - 1e-6)
-    return 1;
-  const double needed = std::log(1 - options.confidence_ratio) / std::log(1 - clean);
-  return static_cast<int>(std::min<double>(options.max_hypotheses, std::ceil(needed)));
 }
 
 /// Least squares with a fixed gate.
@@ -204,33 +195,30 @@ PoseEstimate estimatePose(const std::vector<Correspondence>& correspondences, co
     if (!std::isnan(correspondences[i].depth_m))
       with_depth.push_back(i);
 
-  Eigen::Isometry3d T_best = T_session_camera_prior;
-  double best_score = score(correspondences, camera, T_best.inverse(), options);
-  if (with_depth.size() >= 3)
+  const auto solve_triple = [&](const std::array<int, 3>& triple) -> std::optional<Eigen::Isometry3d>
   {
-    std::mt19937_64 generator(seed);
-    int needed = hypothesesNeeded(best_score / static_cast<double>(count), options);
-    for (int drawn = 0; drawn < needed; ++drawn)
+    Eigen::Matrix3Xd p_session(3, 3), p_camera(3, 3);
+    for (int k = 0; k < 3; ++k)
     {
-      Eigen::Matrix3Xd p_session(3, 3), p_camera(3, 3);
-      for (int k = 0; k < 3; ++k)
-      {
-        const Correspondence& drawn_one = correspondences[with_depth[generator() % with_depth.size()]];
-        p_session.col(k) = drawn_one.p_session;
-        p_camera.col(k) = camera.unproject(drawn_one.pixel.x(), drawn_one.pixel.y(), drawn_one.depth_m);
-      }
-      Eigen::Isometry3d T_session_camera;
-      if (!geometry::rigidTransformFromPoints(p_session, p_camera, &T_session_camera))
-        continue;
-      const double drawn_score = score(correspondences, camera, T_session_camera.inverse(), options);
-      if (drawn_score <= best_score)
-        continue;
-      best_score = drawn_score;
-      T_best = T_session_camera;
-      needed = hypothesesNeeded(best_score / static_cast<double>(count), options);
+      const Correspondence& drawn = correspondences[with_depth[triple[k]]];
+      p_session.col(k) = drawn.p_session;
+      p_camera.col(k) = camera.unproject(drawn.pixel.x(), drawn.pixel.y(), drawn.depth_m);
     }
-  }
-  return refinePose(correspondences, camera, T_best, options);
+    Eigen::Isometry3d T_session_camera;
+    if (!geometry::rigidTransformFromPoints(p_session, p_camera, &T_session_camera))
+      return std::nullopt;
+    return T_session_camera;
+  };
+  const auto inlier_ratio = [&](const Eigen::Isometry3d& T_session_camera)
+  { return score(correspondences, camera, T_session_camera.inverse(), options) / static_cast<double>(count); };
+  base::RansacOptions ransac_options;
+  ransac_options.max_samples = options.max_hypotheses;
+  ransac_options.confidence_ratio = options.confidence_ratio;
+  ransac_options.seed = seed;
+  const base::Hypothesis<Eigen::Isometry3d> prior{ T_session_camera_prior, inlier_ratio(T_session_camera_prior) };
+  const auto best =
+      base::ransac<3, Eigen::Isometry3d>(with_depth.size(), ransac_options, solve_triple, inlier_ratio, prior);
+  return refinePose(correspondences, camera, best->model, options);
 }
 
 }  // namespace object_modelling::registration
