@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "object_modelling/geometry/image_sampling.h"
+
 namespace object_modelling::multi_view_icp
 {
 namespace
@@ -63,8 +65,8 @@ void forColor(const IcpView& a, const IcpMatches& matches, const Eigen::Isometry
     const Eigen::Vector3d q = T_a_b * match.p_b.cast<double>();
     float value;
     Eigen::Vector2f gradient;
-    if (sampleGray(image.gray, static_cast<float>(image.fx * q.x() / q.z() + image.cx),
-                   static_cast<float>(image.fy * q.y() / q.z() + image.cy), &value, &gradient))
+    if (geometry::sampleGray(image.gray, static_cast<float>(image.fx * q.x() / q.z() + image.cx),
+                             static_cast<float>(image.fy * q.y() / q.z() + image.cy), &value, &gradient))
       visit(q, gradient, (value - match.intensity) / matches.color_sigma);
   }
 }

@@ -1,6 +1,7 @@
 #include "icp_matches.h"
 
 #include "object_modelling/base/statistics.h"
+#include "object_modelling/geometry/image_sampling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -158,8 +159,8 @@ void matchColors(const IcpView& a, const IcpView& b, const Eigen::Isometry3f& T_
       continue;
     float intensity;
     Eigen::Vector2f gradient;
-    if (!sampleGray(image.gray, image.fx * q.x() / q.z() + image.cx, image.fy * q.y() / q.z() + image.cy, &intensity,
-                    &gradient))
+    if (!geometry::sampleGray(image.gray, image.fx * q.x() / q.z() + image.cx, image.fy * q.y() / q.z() + image.cy,
+                              &intensity, &gradient))
       continue;
     const float expected = point.intensity[stage.color_level];
     matches->color.push_back({ point.p, expected });
@@ -190,21 +191,6 @@ void matchColors(const IcpView& a, const IcpView& b, const Eigen::Isometry3f& T_
   matches->color_sigma = std::max(MIN_COLOR_SIGMA, 1.4826F * base::median(&sizes));
 }
 }  // namespace
-
-bool sampleGray(const cv::Mat& gray, float u, float v, float* value, Eigen::Vector2f* gradient)
-{
-  if (!(u >= 0 && v >= 0 && u < static_cast<float>(gray.cols - 1) && v < static_cast<float>(gray.rows - 1)))
-    return false;
-  const int iu = static_cast<int>(u), iv = static_cast<int>(v);
-  const float a = u - static_cast<float>(iu), b = v - static_cast<float>(iv);
-  const auto* upper = gray.ptr<std::uint8_t>(iv) + iu;
-  const auto* lower = gray.ptr<std::uint8_t>(iv + 1) + iu;
-  const float top = static_cast<float>(upper[1] - upper[0]), bottom = static_cast<float>(lower[1] - lower[0]);
-  const float left = upper[0] + a * top, right = lower[0] + a * bottom;
-  *value = (1 - b) * left + b * right;
-  *gradient = { (1 - b) * top + b * bottom, right - left };
-  return true;
-}
 
 IcpMatches matchSurface(const IcpView& a, const IcpView& b, const Eigen::Isometry3d& T_a_b, const IcpStage& stage,
                         const NearestPoints* nearest)

@@ -54,7 +54,4 @@ IcpMatches matchSurface(const IcpView& a, const IcpView& b, const Eigen::Isometr
 IcpMatches matchViews(const IcpView& a, const IcpView& b, const Eigen::Isometry3d& T_a_b, const IcpStage& stage,
                       const NearestPoints* nearest);
 
-/// Grey level and its gradient (per pixel) at a position of an image, bilinear; false near the rim.
-bool sampleGray(const cv::Mat& gray, float u, float v, float* value, Eigen::Vector2f* gradient);
-
 }  // namespace object_modelling::multi_view_icp

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "icp_matches.h"
 #include "object_modelling/base/statistics.h"
+#include "object_modelling/geometry/image_sampling.h"
 
 namespace object_modelling::multi_view_icp
 {
@@ -44,7 +44,7 @@ bool grayAt(const rgbd::Frame& frame, const Eigen::Vector2d& pixel, const Eigen:
   const Eigen::Vector2f shifted = (pixel + color_offset_px).cast<float>();
   float value = 0;
   Eigen::Vector2f gradient;
-  if (!sampleGray(frame.gray, shifted.x(), shifted.y(), &value, &gradient))
+  if (!geometry::sampleGray(frame.gray, shifted.x(), shifted.y(), &value, &gradient))
     return false;
   *gray = value;
   return true;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "object_modelling/base/statistics.h"
+#include "object_modelling/rgbd/depth_sampling.h"
 
 namespace object_modelling::registration
 {
@@ -18,44 +19,20 @@ constexpr float AGREEMENT_RATIO = 0.005F;  // of depth, for what calibration and
 constexpr float MIN_FACING_COSINE = 0.15F;
 constexpr int SCALE_SAMPLES = 3;  // every so many residuals tell the robust scale well enough
 
-/// A sub-pixel position: the pixel above and to the left of it, and the rest.
-struct SubPixel
-{
-  SubPixel(float u, float v)
-      : iu(static_cast<int>(u)), iv(static_cast<int>(v)), a(u - static_cast<float>(iu)), b(v - static_cast<float>(iv))
-  {
-  }
-  int iu, iv;
-  float a, b;
-};
-
-/// Depth where its neighbours are one surface; NaN elsewhere.
-float interpolateDepth_m(const cv::Mat& depth_m, const SubPixel& at)
-{
-  const float a = at.a, b = at.b;
-  const float* upper = depth_m.ptr<float>(at.iv) + at.iu;
-  const float* lower = depth_m.ptr<float>(at.iv + 1) + at.iu;
-  const float low = std::min(std::min(upper[0], upper[1]), std::min(lower[0], lower[1]));
-  const float high = std::max(std::max(upper[0], upper[1]), std::max(lower[0], lower[1]));
-  const float z_m = (1 - b) * ((1 - a) * upper[0] + a * upper[1]) + b * ((1 - a) * lower[0] + a * lower[1]);
-  return high - low <= MAX_DEPTH_STEP_RATIO * z_m ? z_m : std::nanf("");
-}
-
 /// Bilinear intensity and the central differences at it.
-void sampleIntensity(const cv::Mat& gray, const SubPixel& at, float* value, float* gradient_x, float* gradient_y)
+void sampleIntensity(const cv::Mat& gray, const geometry::SubPixel& at, float* value, float* gradient_x,
+                     float* gradient_y)
 {
-  const float a = at.a, b = at.b;
-  const std::uint8_t* row0 = gray.ptr<std::uint8_t>(at.iv - 1) + at.iu;
+  const std::uint8_t* row0 = gray.ptr<std::uint8_t>(at.v - 1) + at.u;
   const std::uint8_t* row1 = row0 + gray.step;
   const std::uint8_t* row2 = row1 + gray.step;
   const std::uint8_t* row3 = row2 + gray.step;
-  const auto across = [a](const std::uint8_t* row, int x)
-  { return (1 - a) * static_cast<float>(row[x]) + a * static_cast<float>(row[x + 1]); };
+  const auto across = [&at](const std::uint8_t* row, int x) { return geometry::between(row[x], row[x + 1], at.a); };
   const float middle1 = across(row1, 0);
   const float middle2 = across(row2, 0);
-  *value = (1 - b) * middle1 + b * middle2;
-  *gradient_x = 0.5F * ((1 - b) * (across(row1, 1) - across(row1, -1)) + b * (across(row2, 1) - across(row2, -1)));
-  *gradient_y = 0.5F * ((1 - b) * (middle2 - across(row0, 0)) + b * (across(row3, 0) - middle1));
+  *value = geometry::between(middle1, middle2, at.b);
+  *gradient_x = 0.5F * geometry::between(across(row1, 1) - across(row1, -1), across(row2, 1) - across(row2, -1), at.b);
+  *gradient_y = 0.5F * geometry::between(middle2 - across(row0, 0), across(row3, 0) - middle1, at.b);
 }
 
 /// Standard deviation from the median absolute value.
@@ -153,9 +130,10 @@ void observe(const DensePoints& points, const DenseLevel& level, const Eigen::Is
       continue;
     if (!level.mask.empty() && level.mask.at<std::uint8_t>(cvRound(v), cvRound(u)) == 0)
       continue;
-    const SubPixel at(u, v);
-    const float depth_m = interpolateDepth_m(level.depth_m, at);
-    const float step_m = q.z() - depth_m;
+    const geometry::SubPixel at(u, v);
+    const rgbd::DepthBetween depth = rgbd::depthBetween(level.depth_m, at);
+    const bool one_surface = depth.step_m <= MAX_DEPTH_STEP_RATIO * depth.z_m;
+    const float step_m = one_surface ? q.z() - depth.z_m : std::nanf("");
     if (step_m > MAX_DEPTH_STEP_RATIO * q.z())
       continue;  // something is in front
     ++residuals->in_view;

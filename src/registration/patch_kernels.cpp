@@ -5,7 +5,8 @@
 
 #include "object_modelling/base/multiversion.h"
 
-// Loops of fixed length over registers of eight: most of the time that tracking takes is spent here.
+// Loops of fixed length over registers of eight: most of the time that tracking takes is spent here. Hence no
+// geometry::bilinear(), which takes one position at a time.
 namespace object_modelling::registration
 {
 namespace

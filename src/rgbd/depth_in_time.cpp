@@ -3,21 +3,21 @@
 #include <cmath>
 #include <limits>
 
+#include "object_modelling/geometry/image_sampling.h"
+
 namespace object_modelling::rgbd
 {
 namespace
 {
 constexpr float MAX_STEP_RATIO = 0.02F;  // a mean of depths further apart is a place on neither surface
 
-/// Between the four pixels around, or the nearest of them if they are not of one surface. (x, y) inside the image.
-float sample(const float* depth_m, std::ptrdiff_t step, float x, float y)
+/// Between the four pixels around, or the nearest of them if they are not of one surface. `at` has four neighbours.
+float sample(const cv::Mat& depth_m, const geometry::SubPixel& at)
 {
-  const int u = static_cast<int>(x), v = static_cast<int>(y);
-  const float a = x - static_cast<float>(u), b = y - static_cast<float>(v);
-  const float* upper = depth_m + v * step + u;
-  const float* lower = upper + step;
-  const float mean = (1 - b) * ((1 - a) * upper[0] + a * upper[1]) + b * ((1 - a) * lower[0] + a * lower[1]);
-  const float nearest = (b < 0.5F ? upper : lower)[a < 0.5F ? 0 : 1];
+  const float* upper = depth_m.ptr<float>(at.v) + at.u;
+  const float* lower = depth_m.ptr<float>(at.v + 1) + at.u;
+  const float mean = geometry::bilinear(upper, lower, at);
+  const float nearest = (at.b < 0.5F ? upper : lower)[at.a < 0.5F ? 0 : 1];
   // False where one is missing, too.
   return std::abs(mean - nearest) <= MAX_STEP_RATIO * nearest ? mean : nearest;
 }
@@ -34,8 +34,6 @@ cv::Mat moveDepth(const cv::Mat& depth_m, const geometry::PinholeCamera& camera,
       (Eigen::ArrayXf::LinSpaced(depth_m.cols, 0, static_cast<float>(depth_m.cols - 1)) - cx) / fx;
   const float t_z = z_axis.dot(t);
   Eigen::ArrayXf inverse_z, scale, x, y, scale_z;
-  const auto last_x = static_cast<float>(depth_m.cols - 1), last_y = static_cast<float>(depth_m.rows - 1);
-  const auto step = static_cast<std::ptrdiff_t>(depth_m.step1());
   cv::Mat moved(depth_m.size(), CV_32FC1);
   for (int v = 0; v < depth_m.rows; ++v)
   {
@@ -51,9 +49,8 @@ cv::Mat moveDepth(const cv::Mat& depth_m, const geometry::PinholeCamera& camera,
     auto* out = moved.ptr<float>(v);
     for (int u = 0; u < depth_m.cols; ++u)
     {
-      const bool inside = x[u] >= 0 && y[u] >= 0 && x[u] < last_x && y[u] < last_y;  // false for NaN
-      out[u] = inside ? scale_z[u] * sample(depth_m.ptr<float>(), step, x[u], y[u]) - t_z
-                      : std::numeric_limits<float>::quiet_NaN();
+      out[u] = geometry::hasNeighbours(depth_m, x[u], y[u]) ? scale_z[u] * sample(depth_m, { x[u], y[u] }) - t_z
+                                                            : std::numeric_limits<float>::quiet_NaN();
     }
   }
   return moved;

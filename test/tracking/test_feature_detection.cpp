@@ -1,12 +1,9 @@
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
 #include "feature_detector.h"
-#include "object_modelling/rgbd/depth_sampling.h"
 #include "support/handheld_trajectory.h"
 #include "support/synthetic_scene.h"
 #include "wide_baseline_features.h"
@@ -21,18 +18,6 @@ rgbd::Frame view(double azimuth_rad)
                                    test_support::orbitPose({ 0, 0, 0.08 }, 0.7, azimuth_rad, 0.6));
 }
 }  // namespace
-
-TEST(DepthSampling, InterpolatesOneSurfaceOnly)
-{
-  cv::Mat depth_m = (cv::Mat_<float>(3, 4) << 1.000F, 1.004F, 1.008F, 1.5F, 1.002F, 1.006F, 1.010F, 1.5F, 1.0F,
-                     std::numeric_limits<float>::quiet_NaN(), 1.0F, 1.0F);
-  EXPECT_NEAR(rgbd::sampleDepth_m(depth_m, 0.25F, 0.5F), 1.002F, 1e-6);
-  EXPECT_TRUE(std::isnan(rgbd::sampleDepth_m(depth_m, 2.5F, 0.5F)));  // across a step
-  EXPECT_TRUE(std::isnan(rgbd::sampleDepth_m(depth_m, 0.5F, 1.5F)));  // next to a hole
-  EXPECT_TRUE(std::isnan(rgbd::sampleDepth_m(depth_m, -0.1F, 0.5F)));
-  EXPECT_TRUE(std::isnan(rgbd::sampleDepth_m(depth_m, 3.2F, 0.5F)));
-  EXPECT_TRUE(std::isnan(rgbd::sampleDepth_m(depth_m, std::numeric_limits<float>::quiet_NaN(), 0.5F)));
-}
 
 TEST(FeatureDetector, KeepsToTheMaskAndAwayFromOldFeatures)
 {
