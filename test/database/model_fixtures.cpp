@@ -80,22 +80,4 @@ std::map<std::string, std::string> contentsOf(const std::string& folder)
   return contents;
 }
 
-base::Status statusOf(const std::function<void()>& call)
-{
-  try
-  {
-    call();
-  }
-  catch (const base::Error& error)
-  {
-    return error.status();
-  }
-  return {};
-}
-
-bool mentions(const base::Status& status, const std::string& text)
-{
-  return status.message.find(text) != std::string::npos;
-}
-
 }  // namespace object_modelling::database

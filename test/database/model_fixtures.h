@@ -1,11 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <map>
 #include <string>
 
-#include "object_modelling/base/status.h"
 #include "object_modelling/database/object_model.h"
+#include "support/thrown_status.h"
 
 namespace object_modelling::database
 {
@@ -16,9 +15,7 @@ ObjectModel makeModel(const std::string& id, int variant = 0, int view_count = 2
 /// Content of every file below a folder by relative path.
 std::map<std::string, std::string> contentsOf(const std::string& folder);
 
-/// Status of the base::Error that the call throws; OK if none.
-base::Status statusOf(const std::function<void()>& call);
-
-bool mentions(const base::Status& status, const std::string& text);
+using test_support::mentions;
+using test_support::statusOf;
 
 }  // namespace object_modelling::database

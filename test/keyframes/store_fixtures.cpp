@@ -114,17 +114,4 @@ void expectSame(const rgbd::Keyframe& actual, const rgbd::Keyframe& expected)
   }
 }
 
-base::Status statusOf(const std::function<void()>& call)
-{
-  try
-  {
-    call();
-  }
-  catch (const base::Error& error)
-  {
-    return error.status();
-  }
-  return {};
-}
-
 }  // namespace object_modelling::keyframes

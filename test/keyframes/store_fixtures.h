@@ -1,12 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 
-#include "object_modelling/base/status.h"
 #include "object_modelling/keyframes/session_store.h"
 #include "support/temp_dir.h"
+#include "support/thrown_status.h"
 
 namespace object_modelling::keyframes
 {
@@ -28,7 +27,6 @@ double depthDifference_m(const cv::Mat& a, const cv::Mat& b);
 /// Everything but the depth image, exactly.
 void expectSame(const rgbd::Keyframe& actual, const rgbd::Keyframe& expected);
 
-/// Status of the base::Error that the call throws; OK if none.
-base::Status statusOf(const std::function<void()>& call);
+using test_support::statusOf;
 
 }  // namespace object_modelling::keyframes

@@ -17,6 +17,7 @@ namespace object_modelling::keyframes
 {
 namespace fs = std::filesystem;
 using base::StatusCode;
+using test_support::mentions;
 
 namespace
 {
@@ -38,11 +39,6 @@ public:
 private:
   bool was_root_, changed_ = false;
 };
-
-bool mentions(const base::Status& status, const std::string& text)
-{
-  return status.message.find(text) != std::string::npos;
-}
 }  // namespace
 
 TEST(StoreFaults, MakesAMissingFolder)

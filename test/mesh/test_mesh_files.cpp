@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "object_modelling/base/status.h"
 #include "support/temp_dir.h"
+#include "support/thrown_status.h"
 
 namespace object_modelling::mesh
 {
@@ -35,16 +35,9 @@ TriangleMesh strip(bool normals = true, bool colors = true)
 
 base::StatusCode codeOf(const std::function<void()>& action)
 {
-  try
-  {
-    action();
-  }
-  catch (const base::Error& error)
-  {
-    EXPECT_STRNE(error.what(), "");
-    return error.code();
-  }
-  return base::StatusCode::OK;
+  const base::Status status = test_support::statusOf(action);
+  EXPECT_EQ(status.message.empty(), status.code == base::StatusCode::OK);
+  return status.code;
 }
 
 std::string contentOf(const std::string& path)

@@ -148,19 +148,6 @@ TrajectoryError trajectoryError(const std::vector<source::StampedPose>& trajecto
   return error;
 }
 
-base::Status statusOf(const std::function<void()>& call)
-{
-  try
-  {
-    call();
-  }
-  catch (const base::Error& error)
-  {
-    return error.status();
-  }
-  return {};
-}
-
 std::string fingerprint(keyframes::SessionStore& store, const std::string& session_id)
 {
   std::ostringstream text;

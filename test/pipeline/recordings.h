@@ -9,6 +9,7 @@
 #include "object_modelling/source/frame_source.h"
 #include "object_modelling/source/trajectory_file.h"
 #include "support/synthetic_scene.h"
+#include "support/thrown_status.h"
 
 // Small recordings (320x240) of ray-cast scenes, and stores with sessions made from them.
 namespace object_modelling::pipeline
@@ -69,8 +70,7 @@ struct TrajectoryError
 };
 TrajectoryError trajectoryError(const std::vector<source::StampedPose>& trajectory, const Recording& truth);
 
-/// Status of the base::Error that a call throws; OK if it throws none.
-base::Status statusOf(const std::function<void()>& call);
+using test_support::statusOf;
 
 /// Everything of a session that a stage may change, to tell whether one did.
 std::string fingerprint(keyframes::SessionStore& store, const std::string& session_id);

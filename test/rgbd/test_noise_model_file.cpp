@@ -4,8 +4,8 @@
 
 #include <fstream>
 
-#include "object_modelling/base/status.h"
 #include "support/temp_dir.h"
+#include "support/thrown_status.h"
 
 namespace object_modelling::rgbd
 {
@@ -24,15 +24,7 @@ SensorNoiseModel unusual()
 
 base::Status statusOf(const std::string& path)
 {
-  try
-  {
-    loadNoiseModel(path);
-  }
-  catch (const base::Error& error)
-  {
-    return error.status();
-  }
-  return {};
+  return test_support::statusOf([&] { loadNoiseModel(path); });
 }
 
 class NoiseModelFile : public ::testing::Test

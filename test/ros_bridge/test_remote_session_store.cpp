@@ -10,6 +10,7 @@
 #include "object_modelling/ros_bridge/remote_session_store.h"
 #include "object_modelling/ros_bridge/session_conversion.h"
 #include "support/temp_dir.h"
+#include "support/thrown_status.h"
 
 namespace object_modelling::ros_bridge
 {
@@ -48,16 +49,9 @@ protected:
 
   base::StatusCode codeOf(const std::function<void()>& body)
   {
-    try
-    {
-      body();
-      return base::StatusCode::OK;
-    }
-    catch (const base::Error& error)
-    {
-      EXPECT_FALSE(std::string(error.what()).empty());
-      return error.code();
-    }
+    const base::Status status = test_support::statusOf(body);
+    EXPECT_EQ(status.message.empty(), status.code == base::StatusCode::OK);
+    return status.code;
   }
 
   ros::NodeHandle node_;

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "object_modelling/base/status.h"
 #include "object_modelling/mesh/textured_renderer.h"
 #include "support/temp_dir.h"
+#include "support/thrown_status.h"
 #include "texture_scene.h"
 
 namespace object_modelling::texture
@@ -39,15 +39,7 @@ mesh::TexturedMesh printedBox()
 
 base::StatusCode codeOf(const std::function<void()>& action)
 {
-  try
-  {
-    action();
-  }
-  catch (const base::Error& error)
-  {
-    return error.code();
-  }
-  return base::StatusCode::OK;
+  return test_support::statusOf(action).code;
 }
 
 cv::Mat picture(const mesh::TexturedMesh& textured)
