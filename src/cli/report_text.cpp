@@ -59,12 +59,11 @@ nlohmann::json toJson(const bundle_adjustment::BundleAdjustmentResult& result)
 {
   nlohmann::json keyframes = nlohmann::json::array();
   for (const bundle_adjustment::KeyframeResidual& residual : result.residuals)
-    keyframes.push_back({ { "keyframe_id", residual.keyframe_id },
-                          { "observation_count", residual.observation_count },
-                          { "reprojection_rmse_before_px", residual.reprojection_rmse_before_px },
-                          { "reprojection_rmse_after_px", residual.reprojection_rmse_after_px },
-                          { "depth_rmse_before_m", residual.depth_rmse_before_m },
-                          { "depth_rmse_after_m", residual.depth_rmse_after_m } });
+  {
+    nlohmann::json fields;
+    bundle_adjustment::forFields([&](const char* name, const auto& value) { fields[name] = value; }, residual);
+    keyframes.push_back(fields);
+  }
   nlohmann::json links = nlohmann::json::array();
   for (const bundle_adjustment::KeyframeLink& link : result.links)
     links.push_back({ { "keyframe_a", link.keyframe_a },

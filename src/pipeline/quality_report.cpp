@@ -64,32 +64,6 @@ void emitCoverage(YAML::Emitter& out, const Coverage& coverage)
   out << YAML::EndSeq << YAML::EndMap;
 }
 
-void emitRefinement(YAML::Emitter& out, const RefinementReport& report)
-{
-  begin(out, "refinement");
-  put(out, "iterations", report.iterations);
-  put(out, "initial_cost", report.initial_cost);
-  put(out, "final_cost", report.final_cost);
-  out << YAML::Key << "color_offset_px" << YAML::Value << YAML::Flow << YAML::BeginSeq << report.color_offset_px.x()
-      << report.color_offset_px.y() << YAML::EndSeq;
-  put(out, "link_count", report.link_count);
-  put(out, "rejected_link_count", report.rejected_link_count);
-  out << YAML::Key << "left_out" << YAML::Value << YAML::Flow << report.left_out;
-  out << YAML::Key << "keyframes" << YAML::Value << YAML::BeginSeq;
-  for (const bundle_adjustment::KeyframeResidual& residual : report.residuals)
-  {
-    out << YAML::Flow << YAML::BeginMap;
-    put(out, "keyframe_id", residual.keyframe_id);
-    put(out, "observation_count", residual.observation_count);
-    put(out, "reprojection_rmse_before_px", residual.reprojection_rmse_before_px);
-    put(out, "reprojection_rmse_after_px", residual.reprojection_rmse_after_px);
-    put(out, "depth_rmse_before_m", residual.depth_rmse_before_m);
-    put(out, "depth_rmse_after_m", residual.depth_rmse_after_m);
-    out << YAML::EndMap;
-  }
-  out << YAML::EndSeq << YAML::EndMap;
-}
-
 /// A model is worth having without the history of its session.
 std::optional<RefinementReport> storedReport(const keyframes::Session& session)
 {
@@ -113,10 +87,11 @@ void emitSessions(YAML::Emitter& out, const std::vector<keyframes::Session>& ses
     out << YAML::Key << "id" << YAML::Value << YAML::DoubleQuoted << session.id;
     put(out, "keyframe_count", session.keyframe_count);
     put(out, "tracked_against", session.reference_is_object ? "object" : "scene");
+    out << YAML::Key << "refinement" << YAML::Value;
     if (const std::optional<RefinementReport> report = storedReport(session))
-      emitRefinement(out, *report);
+      emit(out, *report);
     else
-      out << YAML::Key << "refinement" << YAML::Value << YAML::Null;
+      out << YAML::Null;
     out << YAML::EndMap;
   }
   out << YAML::EndSeq;

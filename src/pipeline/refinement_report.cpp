@@ -6,30 +6,88 @@
 
 namespace object_modelling::pipeline
 {
+namespace
+{
+/// Calls visit(name, field) for each field but the residuals, in the order of files.
+template <typename Visit, typename Report>
+void forFields(const Visit& visit, Report& report)
+{
+  visit("iterations", report.iterations);
+  visit("initial_cost", report.initial_cost);
+  visit("final_cost", report.final_cost);
+  visit("color_offset_px", report.color_offset_px);
+  visit("link_count", report.link_count);
+  visit("rejected_link_count", report.rejected_link_count);
+  visit("left_out", report.left_out);
+}
+
+struct Write
+{
+  YAML::Emitter& out;
+
+  template <typename Value>
+  void operator()(const char* name, const Value& value) const
+  {
+    out << YAML::Key << name << YAML::Value << value;
+  }
+  void operator()(const char* name, const Eigen::Vector2d& v) const
+  {
+    out << YAML::Key << name << YAML::Value << YAML::Flow << YAML::BeginSeq << v.x() << v.y() << YAML::EndSeq;
+  }
+  void operator()(const char* name, const std::vector<int>& ids) const
+  {
+    out << YAML::Key << name << YAML::Value << YAML::Flow << ids;
+  }
+};
+
+struct Read
+{
+  const YAML::Node& node;
+
+  template <typename Value>
+  void operator()(const char* name, Value& value) const
+  {
+    value = node[name].as<Value>();
+  }
+  void operator()(const char* name, Eigen::Vector2d& v) const
+  {
+    v = { node[name][0].as<double>(), node[name][1].as<double>() };
+  }
+};
+}  // namespace
+
+RefinementReport refinementReportOf(const bundle_adjustment::BundleAdjustmentResult& result)
+{
+  RefinementReport report;
+  report.iterations = result.iterations;
+  report.initial_cost = result.initial_cost;
+  report.final_cost = result.final_cost;
+  report.color_offset_px = result.color_offset_px;
+  report.link_count = static_cast<int>(result.links.size());
+  report.rejected_link_count = static_cast<int>(result.rejected_links.size());
+  report.left_out = result.left_out;
+  report.residuals = result.residuals;
+  return report;
+}
+
+void emit(YAML::Emitter& out, const RefinementReport& report)
+{
+  out << YAML::BeginMap;
+  forFields(Write{ out }, report);
+  out << YAML::Key << "keyframes" << YAML::Value << YAML::BeginSeq;
+  for (const bundle_adjustment::KeyframeResidual& residual : report.residuals)
+  {
+    out << YAML::Flow << YAML::BeginMap;
+    bundle_adjustment::forFields(Write{ out }, residual);
+    out << YAML::EndMap;
+  }
+  out << YAML::EndSeq << YAML::EndMap;
+}
+
 std::string refinementReportYaml(const bundle_adjustment::BundleAdjustmentResult& result)
 {
   YAML::Emitter out;
-  out << YAML::BeginMap;
-  out << YAML::Key << "iterations" << YAML::Value << result.iterations;
-  out << YAML::Key << "initial_cost" << YAML::Value << result.initial_cost;
-  out << YAML::Key << "final_cost" << YAML::Value << result.final_cost;
-  out << YAML::Key << "color_offset_px" << YAML::Value << YAML::Flow << YAML::BeginSeq << result.color_offset_px.x()
-      << result.color_offset_px.y() << YAML::EndSeq;
-  out << YAML::Key << "link_count" << YAML::Value << result.links.size();
-  out << YAML::Key << "rejected_link_count" << YAML::Value << result.rejected_links.size();
-  out << YAML::Key << "left_out" << YAML::Value << YAML::Flow << result.left_out;
-  out << YAML::Key << "keyframes" << YAML::Value << YAML::BeginSeq;
-  for (const bundle_adjustment::KeyframeResidual& residual : result.residuals)
-  {
-    out << YAML::Flow << YAML::BeginMap;
-    out << YAML::Key << "keyframe_id" << YAML::Value << residual.keyframe_id;
-    out << YAML::Key << "observation_count" << YAML::Value << residual.observation_count;
-    out << YAML::Key << "reprojection_rmse_before_px" << YAML::Value << residual.reprojection_rmse_before_px;
-    out << YAML::Key << "reprojection_rmse_after_px" << YAML::Value << residual.reprojection_rmse_after_px;
-    out << YAML::Key << "depth_rmse_before_m" << YAML::Value << residual.depth_rmse_before_m;
-    out << YAML::Key << "depth_rmse_after_m" << YAML::Value << residual.depth_rmse_after_m << YAML::EndMap;
-  }
-  out << YAML::EndSeq << YAML::EndMap;
+  emit(out, refinementReportOf(result));
   return std::string(out.c_str()) + "\n";
 }
 
@@ -41,24 +99,9 @@ std::optional<RefinementReport> readRefinementReport(const std::string& yaml)
   try
   {
     const YAML::Node node = YAML::Load(yaml);
-    report.iterations = node["iterations"].as<int>();
-    report.initial_cost = node["initial_cost"].as<double>();
-    report.final_cost = node["final_cost"].as<double>();
-    report.color_offset_px = { node["color_offset_px"][0].as<double>(), node["color_offset_px"][1].as<double>() };
-    report.link_count = node["link_count"].as<int>();
-    report.rejected_link_count = node["rejected_link_count"].as<int>();
-    report.left_out = node["left_out"].as<std::vector<int>>();
+    forFields(Read{ node }, report);
     for (const YAML::Node& keyframe : node["keyframes"])
-    {
-      bundle_adjustment::KeyframeResidual residual;
-      residual.keyframe_id = keyframe["keyframe_id"].as<int>();
-      residual.observation_count = keyframe["observation_count"].as<int>();
-      residual.reprojection_rmse_before_px = keyframe["reprojection_rmse_before_px"].as<double>();
-      residual.reprojection_rmse_after_px = keyframe["reprojection_rmse_after_px"].as<double>();
-      residual.depth_rmse_before_m = keyframe["depth_rmse_before_m"].as<double>();
-      residual.depth_rmse_after_m = keyframe["depth_rmse_after_m"].as<double>();
-      report.residuals.push_back(residual);
-    }
+      bundle_adjustment::forFields(Read{ keyframe }, report.residuals.emplace_back());
   }
   catch (const YAML::Exception& error)
   {

@@ -8,6 +8,11 @@
 
 #include "object_modelling/bundle_adjustment/bundle_adjustment.h"
 
+namespace YAML
+{
+class Emitter;
+}
+
 namespace object_modelling::pipeline
 {
 /// What is kept of a session's last bundle adjustment.
@@ -21,6 +26,8 @@ struct RefinementReport
   std::vector<bundle_adjustment::KeyframeResidual> residuals;
 };
 
+RefinementReport refinementReportOf(const bundle_adjustment::BundleAdjustmentResult& result);
+void emit(YAML::Emitter& out, const RefinementReport& report);
 /// YAML text that is stored with the session (keyframes::Session::refinement_report).
 std::string refinementReportYaml(const bundle_adjustment::BundleAdjustmentResult& result);
 /// Nothing for an empty text: never refined. Throws base::Error (BAD_INPUT).

@@ -45,6 +45,19 @@ struct KeyframeResidual
   double depth_rmse_before_m = 0, depth_rmse_after_m = 0;
 };
 
+/// Calls visit(name, field...) for each field of a residual, in the order of files. Of several, messages too, with the
+/// field of each.
+template <typename Visit, typename... Residuals>
+void forFields(const Visit& visit, Residuals&... residuals)
+{
+  visit("keyframe_id", residuals.keyframe_id...);
+  visit("observation_count", residuals.observation_count...);
+  visit("reprojection_rmse_before_px", residuals.reprojection_rmse_before_px...);
+  visit("reprojection_rmse_after_px", residuals.reprojection_rmse_after_px...);
+  visit("depth_rmse_before_m", residuals.depth_rmse_before_m...);
+  visit("depth_rmse_after_m", residuals.depth_rmse_after_m...);
+}
+
 /// Two keyframes linked by a direct, geometrically verified match: an independent measurement of their relative pose.
 struct KeyframeLink
 {

@@ -11,12 +11,7 @@ namespace
 object_modelling::KeyframeResidual toMessage(const bundle_adjustment::KeyframeResidual& residual)
 {
   object_modelling::KeyframeResidual message;
-  message.keyframe_id = residual.keyframe_id;
-  message.observation_count = residual.observation_count;
-  message.reprojection_rmse_before_px = residual.reprojection_rmse_before_px;
-  message.reprojection_rmse_after_px = residual.reprojection_rmse_after_px;
-  message.depth_rmse_before_m = residual.depth_rmse_before_m;
-  message.depth_rmse_after_m = residual.depth_rmse_after_m;
+  bundle_adjustment::forFields([](const char*, auto& to, const auto& from) { to = from; }, message, residual);
   return message;
 }
 
