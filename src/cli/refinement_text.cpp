@@ -1,7 +1,3 @@
-#include <cmath>
-#include <iomanip>
-#include <sstream>
-
 #include "report_text.h"
 
 namespace object_modelling::cli
@@ -54,29 +50,6 @@ nlohmann::json toJson(const pipeline::SessionRefinement& refined)
                                  { "gray", poses.score.gray },
                                  { "pair_count", poses.score.pair_count } });
   return json;
-}
-
-std::string toText(const multi_view_icp::MultiViewIcpResult& result)
-{
-  if (!result.status.ok())
-    return "aligned   " + result.status.message + "\n";
-  double squared_before = 0, squared_after = 0, count = 0;
-  for (const multi_view_icp::IcpPair& pair : result.pairs)
-  {
-    squared_before += pair.point_count * pair.rmse_before_m * pair.rmse_before_m;
-    squared_after += pair.point_count * pair.rmse_after_m * pair.rmse_after_m;
-    count += pair.point_count;
-  }
-  std::ostringstream out;
-  out << std::fixed << std::setprecision(2) << "aligned   " << result.residuals.size() << " keyframes in "
-      << result.pairs.size() << " overlaps, " << result.iterations << " iterations; surfaces "
-      << 1000 * std::sqrt(squared_before / std::max(1.0, count)) << " -> "
-      << 1000 * std::sqrt(squared_after / std::max(1.0, count)) << " mm RMSE";
-  if (!result.left_out.empty())
-    out << "; " << result.left_out.size() << " left out (overlap with none, or do not fit)";
-  if (!result.free_directions.empty())
-    out << "; " << result.free_directions.size() << " directions of keyframes are held by nothing";
-  return out.str() + "\n";
 }
 
 std::string toText(const pipeline::SessionRefinement& refined)

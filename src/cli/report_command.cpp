@@ -2,7 +2,7 @@
 
 #include "command.h"
 #include "object_modelling/database/object_database.h"
-#include "object_modelling/pipeline/report_maker.h"
+#include "object_modelling/report/report_maker.h"
 
 namespace object_modelling::cli
 {
@@ -18,7 +18,7 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
   database::ObjectDatabase database(arguments.database, false);
   control.report("report", 0, 1);
   database.remakeReport(arguments.object_id, control,
-                        [&](const std::string& folder) { pipeline::makeReport(folder, control); });
+                        [&](const std::string& folder) { report::makeReport(folder, control); });
   control.report("report", 1, 1);
   const std::string path = database.root() + "/" + arguments.object_id + "/report.html";
   return { path + "\n", { { "object_id", arguments.object_id }, { "report_path", path } } };

@@ -1,6 +1,5 @@
 #include "report_text.h"
 
-#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -18,20 +17,6 @@ std::ostringstream fixedText(int digits)
   std::ostringstream out;
   out << std::fixed << std::setprecision(digits);
   return out;
-}
-
-/// Root mean square over all observations of the keyframes, by the member that holds a keyframe's own.
-double rmseOf(const std::vector<bundle_adjustment::KeyframeResidual>& residuals,
-              double bundle_adjustment::KeyframeResidual::*rmse)
-{
-  double sum = 0;
-  double count = 0;
-  for (const bundle_adjustment::KeyframeResidual& residual : residuals)
-  {
-    sum += residual.observation_count * residual.*rmse * residual.*rmse;
-    count += residual.observation_count;
-  }
-  return count > 0 ? std::sqrt(sum / count) : 0;
 }
 }  // namespace
 
@@ -121,32 +106,6 @@ std::string toText(const pipeline::RecordReport& report)
       << " ms per frame median, " << base::quantile(report.track_ms, 0.95) << " ms p95\n";
   if (!report.first_problem.empty())
     out << "          first problem: " << report.first_problem << "\n";
-  return out.str();
-}
-
-std::string toText(const bundle_adjustment::BundleAdjustmentResult& result)
-{
-  using Residual = bundle_adjustment::KeyframeResidual;
-  std::ostringstream out = fixedText(2);
-  out << "refined   " << result.residuals.size() << " keyframes, " << result.links.size() << " new links; reprojection "
-      << rmseOf(result.residuals, &Residual::reprojection_rmse_before_px) << " -> "
-      << rmseOf(result.residuals, &Residual::reprojection_rmse_after_px) << " px, depth "
-      << 1000 * rmseOf(result.residuals, &Residual::depth_rmse_before_m) << " -> "
-      << 1000 * rmseOf(result.residuals, &Residual::depth_rmse_after_m) << " mm RMSE";
-  if (!result.left_out.empty())
-    out << "; " << result.left_out.size() << " left out (nothing links them)";
-  if (!result.color_offset_px.isZero())
-    out << "; colour is shifted by (" << result.color_offset_px.x() << ", " << result.color_offset_px.y()
-        << ") px against depth";
-  out << "\n";
-  if (!result.status.ok())
-    out << "          " << result.status.message << "\n";
-  for (const bundle_adjustment::KeyframeLink& link : result.links)
-    if (link.keyframe_b - link.keyframe_a == static_cast<int>(result.residuals.size()) - 1)
-      out << "closure   keyframe " << link.keyframe_b << " against " << link.keyframe_a << ": "
-          << 1000 * link.translation_error_before_m << " mm, " << DEG_PER_RAD * link.rotation_error_before_rad
-          << " deg before -> " << 1000 * link.translation_error_after_m << " mm, "
-          << DEG_PER_RAD * link.rotation_error_after_rad << " deg after\n";
   return out.str();
 }
 

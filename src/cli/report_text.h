@@ -9,6 +9,7 @@
 #include "object_modelling/pipeline/record_session.h"
 #include "object_modelling/pipeline/session_jobs.h"
 #include "object_modelling/pipeline/session_refinement.h"
+#include "object_modelling/report/result_text.h"
 
 // Reports of the pipeline as JSON (units in the keys) and as text.
 namespace object_modelling::cli
@@ -24,12 +25,10 @@ nlohmann::json toJson(const pipeline::SegmentReport& report);
 nlohmann::json toJson(const alignment::AlignmentResult& result);
 nlohmann::json toJson(const pipeline::BuildReport& report);
 
+using report::toText;
 std::string toText(const pipeline::RecordReport& report);
-std::string toText(const bundle_adjustment::BundleAdjustmentResult& result);
-std::string toText(const multi_view_icp::MultiViewIcpResult& result);
 std::string toText(const pipeline::SessionRefinement& refined);
 std::string toText(const pipeline::SegmentReport& report);
-std::string toText(const alignment::AlignmentResult& result);
 std::string toText(const pipeline::BuildReport& report);
 
 }  // namespace object_modelling::cli

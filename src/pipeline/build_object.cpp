@@ -10,8 +10,8 @@
 #include "object_modelling/base/options.h"
 #include "object_modelling/mesh/mesh_renderer.h"
 #include "object_modelling/mesh/textured_renderer.h"
-#include "object_modelling/pipeline/report_maker.h"
-#include "quality_figures.h"
+#include "object_modelling/report/quality_figures.h"
+#include "object_modelling/report/report_maker.h"
 
 namespace object_modelling::pipeline
 {
@@ -85,7 +85,7 @@ std::string reportWarning(const std::string& folder, const std::string& object_i
   control.report("report", 0, 1);
   try
   {
-    makeReport(folder, control);
+    report::makeReport(folder, control);
   }
   catch (const base::Cancelled&)
   {
@@ -232,7 +232,7 @@ void Build::completeModel()
 {
   describe(views_, placements_, *T_model_reference_, box_reference_, &model_);
   model_.diameter_m = diameter_m(model_.mesh.vertices);
-  model_.quality = qualityFigures(model_.views.size(), fused_, model_.mesh, texture_);
+  model_.quality = report::qualityFigures(model_.views.size(), fused_, model_.mesh, texture_);
   model_.provenance = { { "software", "object_modelling " OBJECT_MODELLING_VERSION },
                         { "fusion_resolution_m", std::to_string(options_.fusion.resolution_m) },
                         { "surface_resolution_m", std::to_string(options_.surface.resolution_m) } };
@@ -244,7 +244,8 @@ void Build::completeModel()
   model_.preview_bgr = has_texture ? mesh::renderFourSides(model_.textured) : mesh::renderFourSides(model_.mesh);
   model_.turntable_bgr = has_texture ? mesh::renderTurntable(model_.textured, TURNTABLE_STEPS)
                                      : mesh::renderTurntable(model_.mesh, TURNTABLE_STEPS);
-  model_.quality_yaml = qualityYaml(model_, views_.sessions, views_.origins, options_, report_.stages);
+  model_.quality_yaml = report::qualityYaml(model_, views_.sessions, views_.origins,
+                                            { options_.fusion, options_.surface, options_.texture }, report_.stages);
   timer_.finish("describe");
 }
 

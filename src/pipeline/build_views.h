@@ -7,8 +7,8 @@
 #include "object_modelling/alignment/session_alignment.h"
 #include "object_modelling/base/job_control.h"
 #include "object_modelling/keyframes/session_store.h"
+#include "object_modelling/report/quality_report.h"
 #include "object_modelling/rgbd/view.h"
-#include "quality_report.h"
 
 namespace object_modelling::pipeline
 {
@@ -16,8 +16,8 @@ namespace object_modelling::pipeline
 struct Views
 {
   std::vector<keyframes::Session> sessions;
-  std::vector<rgbd::View> views;    ///< of keyframes that see the object; their world is the reference frame
-  std::vector<ViewOrigin> origins;  ///< of each of them
+  std::vector<rgbd::View> views;            ///< of keyframes that see the object; their world is the reference frame
+  std::vector<report::ViewOrigin> origins;  ///< of each of them
   std::vector<geometry::Plane> support_planes_reference;  ///< of each session that has one
 
   std::optional<geometry::Plane> firstSupport() const;

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "object_modelling/base/options.h"
+#include "object_modelling/report/refinement_report.h"
 #include "object_modelling/segmentation/object_follower.h"
-#include "refinement_report.h"
 #include "refiner.h"
 #include "session_loading.h"
 #include "stage_marks.h"
@@ -54,7 +54,7 @@ keyframes::SessionChange changeBy(const SessionRefinement& refined, const std::v
   change.refinement_report = "";
   if (refined.chosen != nameOf(RefinementMethod::BUNDLE_ADJUSTMENT) && refined.chosen != nameOf(RefinementMethod::BOTH))
     return change;
-  change.refinement_report = refinementReportYaml(*refined.bundle_adjustment);
+  change.refinement_report = report::refinementReportYaml(*refined.bundle_adjustment);
   change.calibration = before.calibration;
   change.calibration->correction = before.calibration.correction.then(refined.bundle_adjustment->sensor);
   if (options.bundle_adjustment.calibrate_color_offset)

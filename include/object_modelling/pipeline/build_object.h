@@ -9,6 +9,7 @@
 #include "object_modelling/database/object_database.h"
 #include "object_modelling/fusion/cloud_fusion.h"
 #include "object_modelling/keyframes/session_store.h"
+#include "object_modelling/report/quality_report.h"
 #include "object_modelling/surface/surface_reconstruction.h"
 #include "object_modelling/texture/texturing.h"
 
@@ -26,12 +27,7 @@ struct BuildOptions
   std::vector<std::string> violations() const;
 };
 
-/// Time that one stage took.
-struct StageTime
-{
-  std::string stage;
-  double duration_s = 0;
-};
+using report::StageTime;
 
 struct BuildReport
 {

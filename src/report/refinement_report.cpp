@@ -1,10 +1,9 @@
-#include "refinement_report.h"
-
-#include <yaml-cpp/yaml.h>
+#include "object_modelling/report/refinement_report.h"
 
 #include "object_modelling/base/status.h"
+#include "refinement_yaml.h"
 
-namespace object_modelling::pipeline
+namespace object_modelling::report
 {
 namespace
 {
@@ -54,9 +53,8 @@ struct Read
     v = { node[name][0].as<double>(), node[name][1].as<double>() };
   }
 };
-}  // namespace
 
-RefinementReport refinementReportOf(const bundle_adjustment::BundleAdjustmentResult& result)
+RefinementReport reportOf(const bundle_adjustment::BundleAdjustmentResult& result)
 {
   RefinementReport report;
   report.iterations = result.iterations;
@@ -69,6 +67,7 @@ RefinementReport refinementReportOf(const bundle_adjustment::BundleAdjustmentRes
   report.residuals = result.residuals;
   return report;
 }
+}  // namespace
 
 void emit(YAML::Emitter& out, const RefinementReport& report)
 {
@@ -87,7 +86,7 @@ void emit(YAML::Emitter& out, const RefinementReport& report)
 std::string refinementReportYaml(const bundle_adjustment::BundleAdjustmentResult& result)
 {
   YAML::Emitter out;
-  emit(out, refinementReportOf(result));
+  emit(out, reportOf(result));
   return std::string(out.c_str()) + "\n";
 }
 
@@ -111,4 +110,4 @@ std::optional<RefinementReport> readRefinementReport(const std::string& yaml)
   return report;
 }
 
-}  // namespace object_modelling::pipeline
+}  // namespace object_modelling::report

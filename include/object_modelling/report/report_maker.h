@@ -4,11 +4,11 @@
 
 #include "object_modelling/base/job_control.h"
 
-namespace object_modelling::pipeline
+namespace object_modelling::report
 {
 /// Makes report.html of an object's folder (docs/report.md) by the Python program object_report, which is looked for
 /// beside the running program, then in PATH. Throws base::Error with the reason (NOT_FOUND: the program; INTERNAL: it
 /// failed, with what it said last; TIMEOUT: after a minute), Cancelled. What was there before stays then.
 void makeReport(const std::string& object_folder, base::JobControl& control);
 
-}  // namespace object_modelling::pipeline
+}  // namespace object_modelling::report

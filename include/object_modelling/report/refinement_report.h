@@ -8,12 +8,7 @@
 
 #include "object_modelling/bundle_adjustment/bundle_adjustment.h"
 
-namespace YAML
-{
-class Emitter;
-}
-
-namespace object_modelling::pipeline
+namespace object_modelling::report
 {
 /// What is kept of a session's last bundle adjustment.
 struct RefinementReport
@@ -26,11 +21,9 @@ struct RefinementReport
   std::vector<bundle_adjustment::KeyframeResidual> residuals;
 };
 
-RefinementReport refinementReportOf(const bundle_adjustment::BundleAdjustmentResult& result);
-void emit(YAML::Emitter& out, const RefinementReport& report);
 /// YAML text that is stored with the session (keyframes::Session::refinement_report).
 std::string refinementReportYaml(const bundle_adjustment::BundleAdjustmentResult& result);
 /// Nothing for an empty text: never refined. Throws base::Error (BAD_INPUT).
 std::optional<RefinementReport> readRefinementReport(const std::string& yaml);
 
-}  // namespace object_modelling::pipeline
+}  // namespace object_modelling::report

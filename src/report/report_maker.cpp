@@ -1,4 +1,4 @@
-#include "object_modelling/pipeline/report_maker.h"
+#include "object_modelling/report/report_maker.h"
 
 #include <chrono>
 #include <cstdio>
@@ -9,7 +9,7 @@
 
 #include <boost/process.hpp>
 
-namespace object_modelling::pipeline
+namespace object_modelling::report
 {
 namespace
 {
@@ -104,4 +104,4 @@ void makeReport(const std::string& object_folder, base::JobControl& control)
   }
 }
 
-}  // namespace object_modelling::pipeline
+}  // namespace object_modelling::report

@@ -1,10 +1,10 @@
-#include "quality_figures.h"
+#include "object_modelling/report/quality_figures.h"
 
 #include <algorithm>
 
 #include "object_modelling/mesh/mesh_check.h"
 
-namespace object_modelling::pipeline
+namespace object_modelling::report
 {
 namespace
 {
@@ -37,4 +37,4 @@ std::map<std::string, double> qualityFigures(std::size_t view_count, const fusio
            { "texture_seam_step_after", texture.seam_step_after } };
 }
 
-}  // namespace object_modelling::pipeline
+}  // namespace object_modelling::report

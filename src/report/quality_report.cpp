@@ -1,4 +1,4 @@
-#include "quality_report.h"
+#include "object_modelling/report/quality_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,14 +6,13 @@
 #include <ceres/version.h>
 #include <glog/logging.h>
 #include <pcl/pcl_config.h>
-#include <yaml-cpp/yaml.h>
 #include <opencv2/core/version.hpp>
 
-#include "coverage.h"
 #include "object_modelling/base/statistics.h"
-#include "refinement_report.h"
+#include "object_modelling/report/coverage.h"
+#include "refinement_yaml.h"
 
-namespace object_modelling::pipeline
+namespace object_modelling::report
 {
 namespace
 {
@@ -113,7 +112,7 @@ void emitViews(YAML::Emitter& out, const std::vector<rgbd::View>& views, const s
   out << YAML::EndSeq;
 }
 
-void emitParameters(YAML::Emitter& out, const BuildOptions& options)
+void emitParameters(YAML::Emitter& out, const ModelOptions& options)
 {
   begin(out, "parameters");
   put(out, "fusion/resolution_m", options.fusion.resolution_m);
@@ -150,7 +149,7 @@ void emitVersions(YAML::Emitter& out)
 }  // namespace
 
 std::string qualityYaml(const database::ObjectModel& model, const std::vector<keyframes::Session>& sessions,
-                        const std::vector<ViewOrigin>& origins, const BuildOptions& options,
+                        const std::vector<ViewOrigin>& origins, const ModelOptions& options,
                         const std::vector<StageTime>& stages)
 {
   YAML::Emitter out;
@@ -183,4 +182,4 @@ std::string qualityYaml(const database::ObjectModel& model, const std::vector<ke
   return std::string(out.c_str()) + "\n";
 }
 
-}  // namespace object_modelling::pipeline
+}  // namespace object_modelling::report

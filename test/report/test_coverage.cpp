@@ -1,10 +1,10 @@
-#include "coverage.h"
+#include "object_modelling/report/coverage.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-namespace object_modelling::pipeline
+namespace object_modelling::report
 {
 namespace
 {
@@ -73,4 +73,4 @@ TEST(CoverageTest, NothingIsNothing)
   EXPECT_EQ(coverage.direction_ratio, 0);
 }
 
-}  // namespace object_modelling::pipeline
+}  // namespace object_modelling::report

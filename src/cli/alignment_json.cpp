@@ -1,5 +1,4 @@
-#include <iomanip>
-#include <sstream>
+#include <algorithm>
 
 #include "object_modelling/registration/pair_figures.h"
 #include "report_text.h"
@@ -50,28 +49,6 @@ nlohmann::json toJson(const alignment::AlignmentResult& result)
                               { "candidates", candidates } });
   }
   return json;
-}
-
-std::string toText(const alignment::AlignmentResult& result)
-{
-  std::ostringstream out;
-  out << std::fixed << std::setprecision(2);
-  for (const alignment::AlignmentEdge& edge : result.edges)
-  {
-    out << "pair      " << edge.session_a << " and " << edge.session_b << ": "
-        << (edge.accepted ? edge.used ? "accepted" : "accepted, not used" : "refused")
-        << (edge.decision == alignment::Decision::AUTOMATIC ? "" : " by a person");
-    if (const alignment::PairCandidate* best = edge.best())
-      out << " (probability " << best->quality.probability << ", overlap " << best->quality.overlap_ratio
-          << ", free-space violation " << best->quality.fsv_ratio << ", surfaces " << 1000 * best->quality.rmse_m
-          << " mm apart, colours " << best->quality.color_agreement << ")";
-    out << (edge.reason.empty() ? "" : "\n          " + edge.reason) << "\n";
-  }
-  for (const alignment::SessionPlacement& placed : result.placements)
-    out << "placed    " << placed.session_id << "\n";
-  for (const std::string& id : result.left_out)
-    out << "left out  " << id << "\n";
-  return out.str();
 }
 
 }  // namespace object_modelling::cli

@@ -1,10 +1,10 @@
-#include "coverage.h"
+#include "object_modelling/report/coverage.h"
 
 #include <cmath>
 
 #include "object_modelling/rgbd/visibility.h"
 
-namespace object_modelling::pipeline
+namespace object_modelling::report
 {
 namespace
 {
@@ -83,4 +83,4 @@ Coverage coverageOf(const mesh::TriangleMesh& mesh, const std::vector<rgbd::View
   return coverage;
 }
 
-}  // namespace object_modelling::pipeline
+}  // namespace object_modelling::report

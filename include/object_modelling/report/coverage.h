@@ -6,7 +6,7 @@
 #include "object_modelling/mesh/triangle_mesh.h"
 #include "object_modelling/rgbd/view.h"
 
-namespace object_modelling::pipeline
+namespace object_modelling::report
 {
 constexpr int AZIMUTH_BINS = 24, ELEVATION_BINS = 12;  ///< 15 degrees each
 constexpr double VIEW_CONE_RAD = 0.5235987755982988;   ///< 30 degrees: a view counts for the directions this near
@@ -28,4 +28,4 @@ struct Coverage
 /// a view's depth agrees with it within 5 mm, and at no flatter an angle than 80 degrees.
 Coverage coverageOf(const mesh::TriangleMesh& mesh, const std::vector<rgbd::View>& views);
 
-}  // namespace object_modelling::pipeline
+}  // namespace object_modelling::report
