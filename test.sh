@@ -26,6 +26,8 @@ if [ -n "$sanitize" ]; then
 fi
 install_missing
 build
+# No test runs them, so that nothing else tells that they do not compile.
+[ -n "$sanitize" ] || build benchmarks
 enter
 rm -rf "$build_dir"/{test_results,Testing,sanitizer_reports,ros_home}
 mkdir -p "$build_dir/sanitizer_reports"
