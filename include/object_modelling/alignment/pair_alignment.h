@@ -15,7 +15,7 @@ struct PairAlignmentOptions
   int rotations = 3000;             ///< tried evenly over all of them, besides those that features and faces propose
   int refined_candidates = 40;      ///< best ones that are refined finely; up to four times as many if they score alike
   double min_overlap_ratio = 0.12;  ///< of the surface of the smaller part
-  double min_probability = 0.8;     ///< below it an alignment is refused
+  double min_probability = 0.85;    ///< below it an alignment is refused
   /// How often an object is recorded again without having been turned over. A pose that says so has that against it,
   /// for nothing joins two sessions so well as laying one top on the other's; below 0.1 it is found, but not taken
   /// unasked.
