@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "object_modelling/features/relative_pose.h"
+#include "object_modelling/rgbd/visibility.h"
 
 namespace object_modelling::bundle_adjustment
 {
@@ -68,16 +69,15 @@ double violationRatio(const rgbd::Frame& from, const rgbd::Frame& onto, const Ei
       const Eigen::Vector3d p = T_onto_from * from.point(u, v).cast<double>();
       if (!(p.z() > 0.05))
         continue;
-      const Eigen::Vector2d pixel = onto.camera.project(p);
-      if (!onto.camera.contains(pixel, 1))
+      const geometry::Projection<double> at = geometry::projectionOf(onto.camera, p, 1);
+      if (!at.inside)
         continue;
-      const int x = static_cast<int>(std::lround(pixel.x())), y = static_cast<int>(std::lround(pixel.y()));
-      const float z = onto.depthAt_m(x, y);
-      const double tolerance_m = 4 * onto.noise_model.axialSigma_m(p.z(), 0) + POSE_ALLOWANCE_RATIO * p.z();
-      const bool off_object = object_only && !insideMask(onto, x, y) && !(z < p.z() - tolerance_m);
-      if (off_object || z > p.z() + tolerance_m)
+      const double tolerance_m = 4 * onto.noise_model.axialSigma_m(at.z_m, 0) + POSE_ALLOWANCE_RATIO * at.z_m;
+      const rgbd::Visibility seen = rgbd::visibilityOf(at, onto.depth_m, tolerance_m);
+      const bool off_object = object_only && !insideMask(onto, at.column, at.row) && seen != rgbd::Visibility::BEHIND;
+      if (off_object || seen == rgbd::Visibility::IN_FRONT)
         ++violations;
-      else if (std::abs(z - p.z()) <= tolerance_m)
+      else if (seen == rgbd::Visibility::ON)
         ++agreements;
     }
   }

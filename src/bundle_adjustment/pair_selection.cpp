@@ -72,6 +72,7 @@ double predictedOverlap(const rgbd::Frame& a, const rgbd::Frame& b, const Eigen:
         continue;
       if (camera_b.contains(pixel))
       {
+        // Rounded down: half a pixel is nothing to DEPTH_RATIO.
         const float z = b.depthAt_m(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
         if (std::abs(z - p_b.z()) > DEPTH_RATIO * p_b.z())
           continue;

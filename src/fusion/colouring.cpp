@@ -37,14 +37,13 @@ std::vector<Sample> bestSamples(const std::vector<PreparedView>& views, const st
     const float cosine = surfel.normal.dot(to_camera) / to_camera.norm();
     if (!(cosine > 0))
       continue;
-    const Projection at = project(view, surfel.point);
+    const geometry::Projection<float> at = project(view, surfel.point);
     if (!at.inside)
       continue;
     const double tolerance_m =
         consistency_sigmas * std::hypot(surfel.sigma_m, view.frame->noise_model.axialSigma_m(at.z_m, 0));
     const float rim_px = rim_distances_px[i].at<float>(at.row, at.column);
-    const double measured_m = view.frame->depth_m.at<float>(at.row, at.column);
-    if (rgbd::visibilityOf<double>(at.z_m, measured_m, tolerance_m) != rgbd::Visibility::ON || rim_px <= 0)
+    if (rgbd::visibilityOf(at, view.frame->depth_m, tolerance_m) != rgbd::Visibility::ON || rim_px <= 0)
       continue;
     Sample sample;
     sample.view = i;

@@ -11,11 +11,7 @@ namespace
 {
 bool seesThrough(const PreparedView& view, const Eigen::Vector3f& point, float tolerance_m)
 {
-  const Projection at = project(view, point);
-  if (!at.inside)
-    return false;
-  return rgbd::visibilityOf(at.z_m, view.nearest_depth_m.at<float>(at.row, at.column), tolerance_m) ==
-         rgbd::Visibility::IN_FRONT;
+  return rgbd::visibilityOf(project(view, point), view.nearest_depth_m, tolerance_m) == rgbd::Visibility::IN_FRONT;
 }
 
 }  // namespace
@@ -33,21 +29,20 @@ Votes castVotes(const std::vector<PreparedView>& views, const SurfacePoint& surf
     if (i == own_view)
       continue;
     const PreparedView& view = views[i];
-    const Projection at = project(view, surface.point);
+    const geometry::Projection<float> at = project(view, surface.point);
     if (!at.inside)
       continue;
     const double sigma_m = std::hypot(surface.axial_sigma_m, view.frame->noise_model.axialSigma_m(at.z_m, 0));
     const auto tolerance_m = static_cast<float>(consistency_sigmas * sigma_m);
-    if (seesThrough(view, surface.point, tolerance_m))
+    if (rgbd::visibilityOf(at, view.nearest_depth_m, tolerance_m) == rgbd::Visibility::IN_FRONT)
     {
       if (seesThrough(view, surface.farthest, tolerance_m) &&
           seesThrough(view, 0.5f * (surface.point + surface.farthest), tolerance_m))
         ++votes.seen_through;
       continue;
     }
-    const float depth_m = view.frame->depth_m.at<float>(at.row, at.column);
     const bool facing = surface.normal.dot(view.p_world_camera - surface.point) > 0;
-    if (!facing || rgbd::visibilityOf(at.z_m, depth_m, tolerance_m) != rgbd::Visibility::ON)
+    if (!facing || rgbd::visibilityOf(at, view.frame->depth_m, tolerance_m) != rgbd::Visibility::ON)
       continue;
     ++votes.same;
     if (!view.frame->object_mask.empty())

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
+#include "object_modelling/geometry/projection.h"
 #include "object_modelling/rgbd/view.h"
 
 namespace object_modelling::fusion
@@ -26,32 +27,10 @@ std::vector<PreparedView> prepareViews(const std::vector<rgbd::View>& views);
 /// Whether a frame brings a mask with anything in it.
 bool hasObject(const rgbd::Frame& frame);
 
-/// Where a point falls in a view.
-struct Projection
+inline geometry::Projection<float> project(const PreparedView& view, const Eigen::Vector3f& p_world)
 {
-  bool inside = false;  ///< in front of the camera and within the image
-  float u_px = 0, v_px = 0, z_m = 0;
-  int column = 0, row = 0;  ///< pixel
-};
-
-inline Projection project(const PreparedView& view, const Eigen::Vector3f& p_world)
-{
-  Projection result;
   const Eigen::Vector3f p_camera = view.T_camera_world * p_world;
-  if (!(p_camera.z() > 0))
-    return result;
-  const geometry::PinholeCamera& camera = view.frame->camera;
-  result.z_m = p_camera.z();
-  result.u_px = static_cast<float>(camera.fx) * p_camera.x() / p_camera.z() + static_cast<float>(camera.cx);
-  result.v_px = static_cast<float>(camera.fy) * p_camera.y() / p_camera.z() + static_cast<float>(camera.cy);
-  result.inside = result.u_px > -0.5f && result.v_px > -0.5f && result.u_px < static_cast<float>(camera.width) - 0.5f &&
-                  result.v_px < static_cast<float>(camera.height) - 0.5f;
-  if (result.inside)
-  {
-    result.column = cvRound(result.u_px);
-    result.row = cvRound(result.v_px);
-  }
-  return result;
+  return geometry::projectionOf(view.frame->camera, p_camera);
 }
 
 }  // namespace object_modelling::fusion

@@ -29,14 +29,13 @@ float mismatch(const IcpView& a, const Eigen::Vector3f& q, const Eigen::Vector3f
 
 /// The pixel of a that suits a point best, searched round its projection in ever smaller steps; false if none is
 /// usable.
-bool searchPartner(const IcpView& a, const Eigen::Vector3f& q, const Eigen::Vector3f& n, float gate_m,
-                   cv::Point* partner)
+bool searchPartner(const IcpView& a, const geometry::Projection<float>& at, const Eigen::Vector3f& q,
+                   const Eigen::Vector3f& n, float gate_m, cv::Point* partner)
 {
-  const Eigen::Vector2f pixel = a.project(q);
-  const cv::Rect image({ 0, 0 }, a.size());
-  cv::Point centre(cvRound(pixel.x()), cvRound(pixel.y()));
-  if (!image.contains(centre))
+  if (!at.inside)
     return false;
+  const cv::Rect image({ 0, 0 }, a.size());
+  cv::Point centre(at.column, at.row);
   const int radius = std::min(40, cvRound(gate_m * a.focal_px() / q.z()));
   float best = a.has(centre.x, centre.y) ? mismatch(a, q, n, gate_m, centre.x, centre.y) : INFINITY;
   *partner = centre;
@@ -63,38 +62,30 @@ bool searchPartner(const IcpView& a, const Eigen::Vector3f& q, const Eigen::Vect
 }
 
 /// Whether the poses say that a sees the point: within the image, and not hidden.
-bool inView(const IcpView& a, const Eigen::Vector3f& q, const Eigen::Vector3f& n, float gate_m)
+bool inView(const IcpView& a, const geometry::Projection<float>& at, const Eigen::Vector3f& q, const Eigen::Vector3f& n,
+            float gate_m)
 {
-  if (q.z() < MIN_DEPTH_M || n.dot(q) >= 0)
-    return false;
-  const Eigen::Vector2f pixel = a.project(q);
-  const cv::Point at(cvRound(pixel.x()), cvRound(pixel.y()));
-  if (!cv::Rect({ 0, 0 }, a.size()).contains(at))
-    return false;
-  return a.has(at.x, at.y) && q.z() - a.depth_m(at.x, at.y) < HIDDEN_M + gate_m;
+  return at.inside && q.z() >= MIN_DEPTH_M && n.dot(q) < 0 && a.has(at.column, at.row) &&
+         a.visibilityOf(at, HIDDEN_M + gate_m) != rgbd::Visibility::BEHIND;
 }
 
 /// Where a's surface is smooth along the viewing ray of a point and farther away than it: no surface is at the point.
-bool seenThrough(const IcpView& a, const Eigen::Vector3f& q, float noise_m)
+bool seenThrough(const IcpView& a, const geometry::Projection<float>& at, float noise_m)
 {
-  const Eigen::Vector2f pixel = a.project(q);
-  const cv::Point at(cvRound(pixel.x()), cvRound(pixel.y()));
-  return cv::Rect({ 0, 0 }, a.size()).contains(at) &&
-         a.depth_m(at.x, at.y) - q.z() > SEEN_THROUGH_M + GATE_SIGMAS * noise_m;
+  return a.visibilityOf(at, SEEN_THROUGH_M + GATE_SIGMAS * noise_m) == rgbd::Visibility::IN_FRONT;
 }
 
 /// The place of a's surface nearest to a point that a sees through; false if there is none within reach.
-bool nearestRim(const IcpView& a, const Eigen::Vector3f& q, float reach_m, Eigen::Vector3f* rim)
+bool nearestRim(const IcpView& a, const geometry::Projection<float>& at, const Eigen::Vector3f& q, float reach_m,
+                Eigen::Vector3f* rim)
 {
-  const Eigen::Vector2f pixel = a.project(q);
   const int radius = std::clamp(static_cast<int>(reach_m * a.focal_px() / q.z()), 2, 24);
   const int step = radius > 8 ? 2 : 1;
-  const int centre_u = cvRound(pixel.x()), centre_v = cvRound(pixel.y());
   float best = reach_m * reach_m;
   bool found = false;
-  for (int v = std::max(0, centre_v - radius); v <= std::min(a.size().height - 1, centre_v + radius); v += step)
+  for (int v = std::max(0, at.row - radius); v <= std::min(a.size().height - 1, at.row + radius); v += step)
   {
-    for (int u = std::max(0, centre_u - radius); u <= std::min(a.size().width - 1, centre_u + radius); u += step)
+    for (int u = std::max(0, at.column - radius); u <= std::min(a.size().width - 1, at.column + radius); u += step)
     {
       if (!(std::abs(a.depth_m(u, v) - q.z()) < reach_m))
         continue;
@@ -119,8 +110,10 @@ void matchRims(const IcpView& a, const IcpView& b, const Eigen::Isometry3f& T_a_
   for (const Eigen::Vector3f& p_b : b.rimPoints())
   {
     const Eigen::Vector3f q = T_a_b * p_b;
+    const geometry::Projection<float> at = a.project(q);
     SurfaceMatch match;
-    if (q.z() < MIN_DEPTH_M || !seenThrough(a, q, 0) || !nearestRim(a, q, std::max(MIN_REACH_M, gate_m), &match.p_a))
+    if (q.z() < MIN_DEPTH_M || !seenThrough(a, at, 0) ||
+        !nearestRim(a, at, q, std::max(MIN_REACH_M, gate_m), &match.p_a))
       continue;
     const Eigen::Vector3f ray = q.normalized();
     Eigen::Vector3f sideways = q - match.p_a;
@@ -151,11 +144,11 @@ void matchColors(const IcpView& a, const IcpView& b, const Eigen::Isometry3f& T_
   {
     const IcpPoint& point = b.colorPoints()[i];
     const Eigen::Vector3f q = T_a_b * point.p;
-    if (!inView(a, q, T_a_b.linear() * point.n, gate_m))
+    const geometry::Projection<float> at = a.project(q);
+    if (!inView(a, at, q, T_a_b.linear() * point.n, gate_m))
       continue;
     // Something else in front or behind: only if the surface is where the point is do their grey levels compare.
-    const Eigen::Vector2f pixel = a.project(q);
-    if (std::abs(a.depth_m(cvRound(pixel.x()), cvRound(pixel.y())) - q.z()) > gate_m + GATE_SIGMAS * point.sigma_m)
+    if (a.visibilityOf(at, gate_m + GATE_SIGMAS * point.sigma_m) != rgbd::Visibility::ON)
       continue;
     float intensity;
     Eigen::Vector2f gradient;
@@ -206,7 +199,8 @@ IcpMatches matchSurface(const IcpView& a, const IcpView& b, const Eigen::Isometr
     const Eigen::Vector3f n = T.linear() * point.n;
     if (q.z() < MIN_DEPTH_M)
       continue;
-    const bool in_view = inView(a, q, n, gate_m);
+    const geometry::Projection<float> at = a.project(q);
+    const bool in_view = inView(a, at, q, n, gate_m);
     matches.in_view += in_view;
     SurfaceMatch match;
     match.p_b = point.p;
@@ -218,7 +212,7 @@ IcpMatches matchSurface(const IcpView& a, const IcpView& b, const Eigen::Isometr
     else
     {
       cv::Point partner;
-      if (!searchPartner(a, q, n, gate_m, &partner))
+      if (!searchPartner(a, at, q, n, gate_m, &partner))
         continue;
       match.p_a = a.point(partner.x, partner.y);
       match.n_a = a.normal(partner.x, partner.y);
@@ -231,7 +225,7 @@ IcpMatches matchSurface(const IcpView& a, const IcpView& b, const Eigen::Isometr
     match.noise_m = noise_m;
     match.sigma_m = std::hypot(noise_m, 0.3F * gate_m);
     matches.surface.push_back(match);
-    matches.fitting += in_view && !seenThrough(a, q, noise_m) && distance_m < FIT_SIGMAS * noise_m;
+    matches.fitting += in_view && !seenThrough(a, at, noise_m) && distance_m < FIT_SIGMAS * noise_m;
   }
   return matches;
 }

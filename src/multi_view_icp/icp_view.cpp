@@ -118,6 +118,9 @@ IcpView::IcpView(const rgbd::View& view, const MultiViewIcpOptions& options)
       cv::resize(gray, gray, reduced.depth_m.size(), 0, 0, cv::INTER_AREA);
   }
   depth_m_ = reduced.depth_m;
+  camera_ = reduced.camera;
+  camera_.width = depth_m_.cols;  // none without depth
+  camera_.height = depth_m_.rows;
   fx_cx_ = { static_cast<float>(reduced.camera.fx), static_cast<float>(reduced.camera.cx) };
   fy_cy_ = { static_cast<float>(reduced.camera.fy), static_cast<float>(reduced.camera.cy) };
   if (depth_m_.empty())

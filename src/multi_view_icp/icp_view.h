@@ -5,7 +5,9 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
+#include "object_modelling/geometry/projection.h"
 #include "object_modelling/multi_view_icp/multi_view_icp.h"
+#include "object_modelling/rgbd/visibility.h"
 
 namespace object_modelling::multi_view_icp
 {
@@ -49,9 +51,11 @@ public:
   }
   /// Depth (m) whatever the normal and the mask; NaN where missing.
   float depth_m(int u, int v) const { return depth_m_.at<float>(v, u); }
-  Eigen::Vector2f project(const Eigen::Vector3f& p) const
+  geometry::Projection<float> project(const Eigen::Vector3f& p) const { return geometry::projectionOf(camera_, p); }
+  /// Compared in double: depth plus tolerance would round where the difference of two depths does not.
+  rgbd::Visibility visibilityOf(const geometry::Projection<float>& at, double tolerance_m) const
   {
-    return { fx_cx_.x() * p.x() / p.z() + fx_cx_.y(), fy_cy_.x() * p.y() / p.z() + fy_cy_.y() };
+    return rgbd::visibilityOf(at, depth_m_, tolerance_m);
   }
   cv::Size size() const { return depth_m_.size(); }
   float focal_px() const { return fx_cx_.x(); }
@@ -69,7 +73,8 @@ private:
   void chooseRims(const cv::Mat& mask);
   IcpPoint pointAt(int u, int v) const;
 
-  Eigen::Vector2f fx_cx_, fy_cy_;
+  geometry::PinholeCamera camera_;  ///< of depth_m_
+  Eigen::Vector2f fx_cx_, fy_cy_;   ///< the same in the precision of the points
   rgbd::SensorNoiseModel noise_model_;
   cv::Mat depth_m_, normals_, usable_;
   std::vector<IcpImage> images_;

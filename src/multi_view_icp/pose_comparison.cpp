@@ -6,6 +6,7 @@
 
 #include "object_modelling/base/statistics.h"
 #include "object_modelling/geometry/image_sampling.h"
+#include "object_modelling/geometry/projection.h"
 
 namespace object_modelling::multi_view_icp
 {
@@ -79,18 +80,14 @@ Meeting meet(const Sample& sample, const rgbd::Frame& frame, const rgbd::Frame& 
 {
   Meeting meeting;
   const Eigen::Vector3d q = T_other_camera * sample.p_camera;
-  if (q.z() <= 0)
-    return meeting;
-  const Eigen::Vector2d pixel = other.camera.project(q);
-  if (!other.camera.contains(pixel, 1))
-    return meeting;
-  const auto u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
+  const geometry::Projection<double> at = geometry::projectionOf(other.camera, q, 1);
   double here = 0, there = 0;
-  if (!usable(other, u, v, object_only) || !grayAt(frame, sample.pixel, color_offset_px, &here) ||
-      !grayAt(other, pixel, color_offset_px, &there))
+  if (!at.inside || !usable(other, at.column, at.row, object_only) ||
+      !grayAt(frame, sample.pixel, color_offset_px, &here) || !grayAt(other, at.pixel(), color_offset_px, &there))
     return meeting;
   meeting.seen = true;
-  meeting.depth_sigmas = (q.z() - other.depthAt_m(u, v)) / (SLANT * M_SQRT2 * other.noise_model.axialSigma_m(q.z(), 0));
+  meeting.depth_sigmas =
+      (at.z_m - other.depthAt_m(at.column, at.row)) / (SLANT * M_SQRT2 * other.noise_model.axialSigma_m(at.z_m, 0));
   meeting.gray = here - there;
   return meeting;
 }

@@ -48,14 +48,9 @@ void lookAt(const std::vector<SpaceView>& views, const Eigen::Vector3f& p, Meeti
   for (const SpaceView& view : views)
   {
     const Eigen::Vector3f q = view.T_camera_session * p;
-    if (q.z() <= 0)
-      continue;
-    const int u = cvRound(static_cast<float>(view.camera.fx) * q.x() / q.z() + static_cast<float>(view.camera.cx));
-    const int v = cvRound(static_cast<float>(view.camera.fy) * q.y() / q.z() + static_cast<float>(view.camera.cy));
-    if (u < 0 || v < 0 || u >= view.least_depth_m.cols || v >= view.least_depth_m.rows)
-      continue;
     const float margin_m = SPACE_SIGMAS * static_cast<float>(view.axial_sigma_m) + SPACE_MARGIN_M;
-    const rgbd::Visibility seen = rgbd::visibilityOf(q.z(), view.least_depth_m.at<float>(v, u), margin_m);
+    const rgbd::Visibility seen =
+        rgbd::visibilityOf(geometry::projectionOf(view.camera, q), view.least_depth_m, margin_m);
     front += seen == rgbd::Visibility::IN_FRONT;
     upheld += seen == rgbd::Visibility::ON;
   }

@@ -8,18 +8,14 @@ namespace object_modelling::report
 {
 namespace
 {
-constexpr double DEPTH_TOLERANCE_M = 0.005, MIN_COSINE = 0.17;
+constexpr double DEPTH_TOLERANCE_M = 0.005, MIN_COSINE = 0.17, BORDER_PX = 0.5;
 
 bool sees(const rgbd::View& view, const Eigen::Vector3d& p_camera, const Eigen::Vector3d& n_camera)
 {
   if (!(p_camera.z() > 0) || -n_camera.dot(p_camera.normalized()) < MIN_COSINE)
     return false;
-  const Eigen::Vector2d pixel = view.frame.camera.project(p_camera);
-  if (!view.frame.camera.contains(pixel, 0.5))
-    return false;
-  const auto u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
-  return rgbd::visibilityOf<double>(p_camera.z(), view.frame.depthAt_m(u, v), DEPTH_TOLERANCE_M) ==
-         rgbd::Visibility::ON;
+  const geometry::Projection<double> at = geometry::projectionOf(view.frame.camera, p_camera, BORDER_PX);
+  return rgbd::visibilityOf(at, view.frame.depth_m, DEPTH_TOLERANCE_M) == rgbd::Visibility::ON;
 }
 
 void countDirections(const std::vector<rgbd::View>& views, Coverage* coverage)

@@ -80,15 +80,15 @@ void ObjectVolume::removeContradicted(const rgbd::Keyframe& keyframe, const cv::
   for (Voxel& voxel : voxels_)
   {
     const Eigen::Vector3d p_camera = T_camera_session * centreOf(voxel);
-    if (p_camera.z() <= 0 || voxel.last_view == views_)
+    if (voxel.last_view == views_)
       continue;
-    const Eigen::Vector2d pixel = frame.camera.project(p_camera);
-    if (!frame.camera.contains(pixel))
+    const geometry::Projection<double> at = geometry::projectionOf(frame.camera, p_camera, 0);
+    if (!at.inside)
       continue;
-    const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
-    const double tolerance_m = 2 * voxel_size_m_ + 3 * noise->sigma_m(static_cast<float>(p_camera.z()), 0.7F);
-    const rgbd::Visibility seen = rgbd::visibilityOf<double>(p_camera.z(), frame.depthAt_m(u, v), tolerance_m);
-    const bool seen_as_other = seen == rgbd::Visibility::ON && !others.empty() && others.at<std::uint8_t>(v, u) != 0;
+    const double tolerance_m = 2 * voxel_size_m_ + 3 * noise->sigma_m(static_cast<float>(at.z_m), 0.7F);
+    const rgbd::Visibility seen = rgbd::visibilityOf(at, frame.depth_m, tolerance_m);
+    const bool seen_as_other =
+        seen == rgbd::Visibility::ON && !others.empty() && others.at<std::uint8_t>(at.row, at.column) != 0;
     voxel.votes_against += seen_as_other ? NEIGHBOUR_VOTES : seen == rgbd::Visibility::IN_FRONT ? 1 : 0;
   }
 }

@@ -104,30 +104,32 @@ Sighting sight(const TextureView& view, const Eigen::Vector3f& p_mesh, const Eig
   Sighting result;
   const Eigen::Vector3f to_camera = view.p_mesh_camera - p_mesh;
   const float cosine = n_mesh.dot(to_camera) / to_camera.norm();
-  const float z_m = (view.T_camera_mesh * p_mesh).z();
-  if (!(cosine > MIN_COSINE) || !(z_m > 0))
+  if (!(cosine > MIN_COSINE))
     return result;
   const geometry::PinholeCamera& camera = view.frame->camera;
-  result.color_px = colorPixel(view, p_mesh);
-  const Eigen::Vector2f pixel = result.color_px - view.color_offset_px;
-  if (!camera.contains(pixel.cast<double>(), 1) || !camera.contains(result.color_px.cast<double>(), 1))
+  const Eigen::Vector3f p_camera = view.T_camera_mesh * p_mesh;
+  const geometry::Projection<float> at = geometry::projectionOf(camera, p_camera, 1);
+  if (!at.inside)
     return result;
-  const int u = cvRound(pixel.x()), v = cvRound(pixel.y());
-  const float rim_px = view.rim_px.at<float>(v, u);
+  result.color_px = at.pixel() + view.color_offset_px;
+  if (!camera.contains(result.color_px.cast<double>(), 1))
+    return result;
+  const float rim_px = view.rim_px.at<float>(at.row, at.column);
   if (!(rim_px >= MIN_RIM_PX))
     return result;
 
   const float pixel_m = pixelSize_m(view, p_mesh);
   const float slope_m_per_px = pixel_m * std::sqrt(1 / (cosine * cosine) - 1);
-  if (view.nearest_surface_m.at<float>(v, u) <
-      z_m - SURFACE_TOLERANCE_M - (OCCLUSION_MARGIN_PX + 1) * 1.5f * slope_m_per_px)
+  if (view.nearest_surface_m.at<float>(at.row, at.column) <
+      at.z_m - SURFACE_TOLERANCE_M - (OCCLUSION_MARGIN_PX + 1) * 1.5f * slope_m_per_px)
     return result;
   if (!view.nearest_depth_m.empty())
   {
-    const float tolerance_m =
-        DEPTH_TOLERANCE_M + 3 * static_cast<float>(view.frame->noise_model.axialSigma_m(z_m, 0)) + 2 * slope_m_per_px;
-    const rgbd::Visibility seen = rgbd::visibilityOf(z_m, view.frame->depthAt_m(u, v), tolerance_m);
-    const rgbd::Visibility round = rgbd::visibilityOf(z_m, view.nearest_depth_m.at<float>(v, u), tolerance_m);
+    const float tolerance_m = DEPTH_TOLERANCE_M +
+                              3 * static_cast<float>(view.frame->noise_model.axialSigma_m(at.z_m, 0)) +
+                              2 * slope_m_per_px;
+    const rgbd::Visibility seen = rgbd::visibilityOf(at, view.frame->depth_m, tolerance_m);
+    const rgbd::Visibility round = rgbd::visibilityOf(at, view.nearest_depth_m, tolerance_m);
     const bool unknown = seen == rgbd::Visibility::UNKNOWN && view.frame->object_mask.empty();
     if (round == rgbd::Visibility::BEHIND || seen == rgbd::Visibility::IN_FRONT || unknown)
       return result;

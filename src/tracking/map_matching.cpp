@@ -1,10 +1,10 @@
 #include "map_matching.h"
 
-#include <cmath>
 #include <unordered_set>
 
 #include "object_modelling/registration/patch_refinement.h"
 #include "object_modelling/rgbd/depth_sampling.h"
+#include "object_modelling/rgbd/visibility.h"
 
 namespace object_modelling::tracking
 {
@@ -23,17 +23,14 @@ Eigen::Matrix3d calibration(const geometry::PinholeCamera& camera)
   return K;
 }
 
-bool onObject(const rgbd::Frame& frame, const Eigen::Vector2d& pixel)
+bool onObject(const rgbd::Frame& frame, const geometry::Projection<double>& at)
 {
-  return frame.object_mask.empty() || frame.object_mask.at<std::uint8_t>(static_cast<int>(std::lround(pixel.y())),
-                                                                         static_cast<int>(std::lround(pixel.x()))) != 0;
+  return frame.object_mask.empty() || frame.object_mask.at<std::uint8_t>(at.row, at.column) != 0;
 }
 
-bool occluded(const rgbd::Frame& frame, const Eigen::Vector2d& pixel, double z_m)
+bool occluded(const rgbd::Frame& frame, const geometry::Projection<double>& at)
 {
-  const float depth_m =
-      frame.depthAt_m(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
-  return !std::isnan(depth_m) && depth_m < (1 - MAX_OCCLUSION_STEP_RATIO) * z_m;
+  return rgbd::visibilityOf(at, frame.depth_m, MAX_OCCLUSION_STEP_RATIO * at.z_m) == rgbd::Visibility::BEHIND;
 }
 }  // namespace
 
@@ -74,10 +71,10 @@ MapMatches matchMap(const KeyframeMap& map, const rgbd::Frame& frame, const regi
       const Eigen::Vector3d p = T_current_reference * sighting.p_keyframe;
       if (p.z() < 0.05)
         continue;
-      const Eigen::Vector2d predicted = frame.camera.project(p);
+      const geometry::Projection<double> predicted = geometry::projectionOf(frame.camera, p, BORDER_PX);
       const double facing = -(T_current_reference.linear() * sighting.n_keyframe).dot(p.normalized());
-      if (!frame.camera.contains(predicted, BORDER_PX) || facing < MIN_FACING_COSINE || !onObject(frame, predicted) ||
-          occluded(frame, predicted, p.z()) || !tried.insert(sighting.landmark_id).second)
+      if (!predicted.inside || facing < MIN_FACING_COSINE || !onObject(frame, predicted) ||
+          occluded(frame, predicted) || !tried.insert(sighting.landmark_id).second)
         continue;
       ++result.predicted_count;
       const auto flow = flow_pixels.find(sighting.landmark_id);
@@ -86,7 +83,7 @@ MapMatches matchMap(const KeyframeMap& map, const rgbd::Frame& frame, const regi
           K, T_current_reference.linear(), T_current_reference.translation(), sighting.n_keyframe, sighting.p_keyframe);
       const registration::PatchRefinement refined =
           registration::refinePatch(reference->pyramid, pyramid.levels(), H, sighting.pixel,
-                                    has_flow ? flow->second : Eigen::Vector2f(predicted.cast<float>()),
+                                    has_flow ? flow->second : Eigen::Vector2f(predicted.pixel().cast<float>()),
                                     has_flow ? FLOW_ERROR_PX : options.prediction_error_px);
       if (!refined.accepted)
         continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "object_modelling/rgbd/depth_sampling.h"
+#include "object_modelling/rgbd/visibility.h"
 
 namespace object_modelling::tracking
 {
@@ -24,16 +25,14 @@ double depthAgreement(const rgbd::Frame& frame, const MapKeyframe& keyframe, con
     const Eigen::Vector3d p = T_camera_keyframe * sighting.p_keyframe;
     if (p.z() < 0.1)
       continue;
-    const Eigen::Vector2d pixel = frame.camera.project(p);
-    if (!frame.camera.contains(pixel, 1))
-      continue;
-    const float depth_m =
-        frame.depthAt_m(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
-    if (std::isnan(depth_m))
+    const double tolerance_m =
+        DEPTH_AGREEMENT_SIGMAS * frame.noise_model.axialSigma_m(p.z(), 0) + DEPTH_AGREEMENT_RATIO * p.z();
+    const rgbd::Visibility seen =
+        rgbd::visibilityOf(geometry::projectionOf(frame.camera, p, 1), frame.depth_m, tolerance_m);
+    if (seen == rgbd::Visibility::OUTSIDE || seen == rgbd::Visibility::UNKNOWN)
       continue;
     ++checked;
-    agreeing += std::abs(depth_m - p.z()) <
-                DEPTH_AGREEMENT_SIGMAS * frame.noise_model.axialSigma_m(p.z(), 0) + DEPTH_AGREEMENT_RATIO * p.z();
+    agreeing += seen == rgbd::Visibility::ON;
   }
   return checked >= MIN_CHECKED_LANDMARKS ? static_cast<double>(agreeing) / checked : 0.0;
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
+#include "object_modelling/geometry/projection.h"
 #include "object_modelling/mesh/triangle_mesh.h"
 #include "object_modelling/rgbd/view.h"
 
@@ -42,10 +43,7 @@ Sighting sight(const TextureView& view, const Eigen::Vector3f& p_mesh, const Eig
 inline Eigen::Vector2f colorPixel(const TextureView& view, const Eigen::Vector3f& p_mesh)
 {
   const Eigen::Vector3f p = view.T_camera_mesh * p_mesh;
-  const geometry::PinholeCamera& camera = view.frame->camera;
-  return Eigen::Vector2f(static_cast<float>(camera.fx) * p.x() / p.z() + static_cast<float>(camera.cx),
-                         static_cast<float>(camera.fy) * p.y() / p.z() + static_cast<float>(camera.cy)) +
-         view.color_offset_px;
+  return geometry::pixelOf(view.frame->camera, p) + view.color_offset_px;
 }
 
 /// Side of a pixel on a surface across the line of sight.

@@ -5,6 +5,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "object_modelling/geometry/projection.h"
+
 namespace object_modelling::nodes
 {
 namespace
@@ -64,11 +66,9 @@ cv::Mat DebugImage::draw(const TrackedFrame& tracked) const
     for (const Eigen::Vector3d& landmark : landmarks_session_)
     {
       const Eigen::Vector3d p_camera = T_camera_session * landmark;
-      if (p_camera.z() <= 0)
-        continue;
-      const Eigen::Vector2d pixel = tracked.frame->camera.project(p_camera);
-      if (tracked.frame->camera.contains(pixel))
-        cv::circle(image, { cvRound(pixel.x()), cvRound(pixel.y()) }, 2, color, 1, cv::LINE_AA);
+      const geometry::Projection<double> at = geometry::projectionOf(tracked.frame->camera, p_camera);
+      if (at.inside)
+        cv::circle(image, { at.column, at.row }, 2, color, 1, cv::LINE_AA);
     }
   }
   cv::rectangle(image, { 0, 0, image.cols, image.rows }, color, 6);
