@@ -165,23 +165,23 @@ DenseTerm evaluate(const DensePoints& points, const DenseLevel& level, const Eig
 }
 }  // namespace
 
-DenseTerm evaluateDense(const DensePoints& points, const DenseLevel& level, const Eigen::Isometry3d& T_camera_session,
-                        const Eigen::Isometry3d& T_session_reference, const DenseAlignmentOptions& options)
+DenseTerm evaluateDense(const DensePoints& points, const DenseLevel& level, const Eigen::Isometry3d& T_camera_world,
+                        const Eigen::Isometry3d& T_world_reference, const DenseAlignmentOptions& options)
 {
   DenseResiduals residuals;
-  DenseTerm term = evaluate(points, level, T_camera_session * T_session_reference, options, &residuals);
+  DenseTerm term = evaluate(points, level, T_camera_world * T_world_reference, options, &residuals);
   if (!term.equations.A.isZero())
     removeNoise(noiseOf(residuals, level, options), &term.equations);
   return term;
 }
 
-DenseAlignment alignDense(const DenseReference& reference, const Eigen::Isometry3d& T_session_reference,
-                          const DensePyramid& frame, const Eigen::Isometry3d& T_session_camera_start,
+DenseAlignment alignDense(const DenseReference& reference, const Eigen::Isometry3d& T_world_reference,
+                          const DensePyramid& frame, const Eigen::Isometry3d& T_world_camera_start,
                           const geometry::Matrix6d& prior, const DenseAlignmentOptions& options)
 {
   DenseAlignment alignment;
-  const Eigen::Isometry3d T_camera_session_start = T_session_camera_start.inverse();
-  Eigen::Isometry3d T_camera_session = T_camera_session_start;
+  const Eigen::Isometry3d T_camera_world_start = T_world_camera_start.inverse();
+  Eigen::Isometry3d T_camera_world = T_camera_world_start;
   DenseResiduals residuals;
   const auto without_noise = [&](int level)
   {
@@ -197,14 +197,13 @@ DenseAlignment alignDense(const DenseReference& reference, const Eigen::Isometry
     bool small_step = false;
     for (int iteration = 0; iteration < options.max_iterations && !small_step; ++iteration)
     {
-      alignment.term =
-          evaluate(reference.levels()[i], level, T_camera_session * T_session_reference, options, &residuals);
-      alignment.T_session_camera = T_camera_session.inverse();
+      alignment.term = evaluate(reference.levels()[i], level, T_camera_world * T_world_reference, options, &residuals);
+      alignment.T_world_camera = T_camera_world.inverse();
       geometry::NormalEquations equations = alignment.term.equations;
       if (equations.A.isZero())
         return alignment;
       const geometry::Vector6d off_start =
-          geometry::vectorFromIsometry(T_camera_session * T_camera_session_start.inverse());
+          geometry::vectorFromIsometry(T_camera_world * T_camera_world_start.inverse());
       equations.A += prior;
       equations.b -= prior * off_start;
       const geometry::Vector6d step = equations.A.ldlt().solve(equations.b);
@@ -215,7 +214,7 @@ DenseAlignment alignDense(const DenseReference& reference, const Eigen::Isometry
                    step.dot(equations.A * step) < CONVERGED_STEP_SIGMAS * CONVERGED_STEP_SIGMAS;
       // The term stands for the pose at which it was evaluated, so the last step is left to whoever uses the term.
       if (!small_step || i > options.finest_level)
-        T_camera_session = geometry::normalised(geometry::isometryFromVector(step) * T_camera_session);
+        T_camera_world = geometry::normalised(geometry::isometryFromVector(step) * T_camera_world);
     }
     alignment.converged = small_step;
   }

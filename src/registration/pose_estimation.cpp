@@ -42,13 +42,13 @@ bool depthCounts(const Correspondence& correspondence, double z_m, const PoseEst
 
 /// Hypotheses are told apart by both: landmarks whose measured depth contradicts count half.
 double score(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
-             const Eigen::Isometry3d& T_camera_session, const PoseEstimationOptions& options)
+             const Eigen::Isometry3d& T_camera_world, const PoseEstimationOptions& options)
 {
   const double squared_gate = options.max_reprojection_error_px * options.max_reprojection_error_px;
   double sum = 0;
   for (const Correspondence& correspondence : correspondences)
   {
-    const Eigen::Vector3d p = T_camera_session * correspondence.p_session;
+    const Eigen::Vector3d p = T_camera_world * correspondence.p_world;
     if (squaredError_px(correspondence, p, camera) <= squared_gate)
       sum += std::isnan(correspondence.depth_m) || depthCounts(correspondence, p.z(), options) ? 1.0 : 0.5;
   }
@@ -58,12 +58,12 @@ double score(const std::vector<Correspondence>& correspondences, const geometry:
 /// Standard deviation of one coordinate of the reprojection errors, from their median; those beyond twice the gate are
 /// left out.
 double robustSigma_px(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
-                      const Eigen::Isometry3d& T_camera_session, const PoseEstimationOptions& options)
+                      const Eigen::Isometry3d& T_camera_world, const PoseEstimationOptions& options)
 {
   std::vector<double> errors_px;
   for (const Correspondence& correspondence : correspondences)
   {
-    const double squared = squaredError_px(correspondence, T_camera_session * correspondence.p_session, camera);
+    const double squared = squaredError_px(correspondence, T_camera_world * correspondence.p_world, camera);
     if (squared <= 4 * options.max_reprojection_error_px * options.max_reprojection_error_px)
       errors_px.push_back(std::sqrt(squared));
   }
@@ -74,7 +74,7 @@ double robustSigma_px(const std::vector<Correspondence>& correspondences, const 
 }
 
 geometry::NormalEquations linearise(const std::vector<Correspondence>& correspondences,
-                                    const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_camera_session,
+                                    const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_camera_world,
                                     const PoseEstimationOptions& options)
 {
   geometry::NormalEquations equations;
@@ -83,7 +83,7 @@ geometry::NormalEquations linearise(const std::vector<Correspondence>& correspon
   const double squared_gate = options.max_reprojection_error_px * options.max_reprojection_error_px;
   for (const Correspondence& correspondence : correspondences)
   {
-    const Eigen::Vector3d p = T_camera_session * correspondence.p_session;
+    const Eigen::Vector3d p = T_camera_world * correspondence.p_world;
     if (squaredError_px(correspondence, p, camera) > squared_gate)
       continue;
     const double inverse_z = 1 / p.z();
@@ -103,11 +103,11 @@ geometry::NormalEquations linearise(const std::vector<Correspondence>& correspon
 
 /// Least squares with a fixed gate.
 PoseEstimate solve(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
-                   const Eigen::Isometry3d& T_session_camera_start, const PoseEstimationOptions& options,
+                   const Eigen::Isometry3d& T_world_camera_start, const PoseEstimationOptions& options,
                    const QuadraticTerm* term)
 {
   PoseEstimate estimate;
-  Eigen::Isometry3d T_camera_session = T_session_camera_start.inverse();
+  Eigen::Isometry3d T_camera_world = T_world_camera_start.inverse();
   const auto equations_at = [&](const Eigen::Isometry3d& T)
   {
     geometry::NormalEquations equations = linearise(correspondences, camera, T, options);
@@ -117,12 +117,12 @@ PoseEstimate solve(const std::vector<Correspondence>& correspondences, const geo
   };
   for (int iteration = 0; iteration < options.max_iterations; ++iteration)
   {
-    const geometry::NormalEquations equations = equations_at(T_camera_session);
+    const geometry::NormalEquations equations = equations_at(T_camera_world);
     const Eigen::LDLT<geometry::Matrix6d> solver(equations.A);
     if (solver.info() != Eigen::Success || solver.rcond() < 1e-12)
       return estimate;
     const geometry::Vector6d step = solver.solve(equations.b);
-    T_camera_session = geometry::normalised(geometry::isometryFromVector(step) * T_camera_session);
+    T_camera_world = geometry::normalised(geometry::isometryFromVector(step) * T_camera_world);
     if (step.cwiseAbs().maxCoeff() < CONVERGED_STEP)
       break;
   }
@@ -131,7 +131,7 @@ PoseEstimate solve(const std::vector<Correspondence>& correspondences, const geo
   estimate.inliers.assign(correspondences.size(), 0);
   for (std::size_t i = 0; i < correspondences.size(); ++i)
   {
-    const double squared = squaredError_px(correspondences[i], T_camera_session * correspondences[i].p_session, camera);
+    const double squared = squaredError_px(correspondences[i], T_camera_world * correspondences[i].p_world, camera);
     if (squared > squared_gate)
       continue;
     estimate.inliers[i] = 1;
@@ -141,9 +141,9 @@ PoseEstimate solve(const std::vector<Correspondence>& correspondences, const geo
   if (estimate.inlier_count < 4 && !term)
     return estimate;
   estimate.valid = true;
-  estimate.T_session_camera = T_camera_session.inverse();
+  estimate.T_world_camera = T_camera_world.inverse();
   estimate.reprojection_rmse_px = std::sqrt(squared_sum / std::max(1, estimate.inlier_count));
-  estimate.covariance = equations_at(T_camera_session).A.inverse();
+  estimate.covariance = equations_at(T_camera_world).A.inverse();
   return estimate;
 }
 
@@ -152,39 +152,39 @@ PoseEstimate solve(const std::vector<Correspondence>& correspondences, const geo
 geometry::NormalEquations QuadraticTerm::at(const Eigen::Isometry3d& T) const
 {
   geometry::NormalEquations moved = equations;
-  moved.b -= equations.A * geometry::vectorFromIsometry(T * T_camera_session.inverse());
+  moved.b -= equations.A * geometry::vectorFromIsometry(T * T_camera_world.inverse());
   return moved;
 }
 
 PoseEstimate refinePose(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
-                        const Eigen::Isometry3d& T_session_camera_start, const PoseEstimationOptions& options,
+                        const Eigen::Isometry3d& T_world_camera_start, const PoseEstimationOptions& options,
                         const QuadraticTerm* term)
 {
   PoseEstimationOptions gated = options;
   gated.max_reprojection_error_px = 2 * options.max_reprojection_error_px;
   gated.max_iterations = 3;
-  PoseEstimate rough = solve(correspondences, camera, T_session_camera_start, gated, term);
+  PoseEstimate rough = solve(correspondences, camera, T_world_camera_start, gated, term);
   if (!rough.valid)
     return rough;
-  const double sigma_px = robustSigma_px(correspondences, camera, rough.T_session_camera.inverse(), options);
+  const double sigma_px = robustSigma_px(correspondences, camera, rough.T_world_camera.inverse(), options);
   gated.pixel_sigma_px = std::max(options.min_pixel_sigma_px, sigma_px);
   // Three standard deviations, between once and twice the option: motion blur and a rolling shutter widen the errors of
   // a whole frame.
   gated.max_reprojection_error_px = std::clamp(3 * std::sqrt(2.0) * sigma_px, options.max_reprojection_error_px,
                                                2 * options.max_reprojection_error_px);
   gated.max_iterations = options.max_iterations;
-  PoseEstimate estimate = solve(correspondences, camera, rough.T_session_camera, gated, term);
-  const Eigen::Isometry3d T_camera_session = estimate.T_session_camera.inverse();
+  PoseEstimate estimate = solve(correspondences, camera, rough.T_world_camera, gated, term);
+  const Eigen::Isometry3d T_camera_world = estimate.T_world_camera.inverse();
   const double squared_gate = options.max_reprojection_error_px * options.max_reprojection_error_px;
   for (std::size_t i = 0; i < estimate.inliers.size(); ++i)
     estimate.close_count +=
         estimate.inliers[i] &&
-        squaredError_px(correspondences[i], T_camera_session * correspondences[i].p_session, camera) <= squared_gate;
+        squaredError_px(correspondences[i], T_camera_world * correspondences[i].p_world, camera) <= squared_gate;
   return estimate;
 }
 
 PoseEstimate estimatePose(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
-                          const Eigen::Isometry3d& T_session_camera_prior, std::uint64_t seed,
+                          const Eigen::Isometry3d& T_world_camera_prior, std::uint64_t seed,
                           const PoseEstimationOptions& options)
 {
   const std::size_t count = correspondences.size();
@@ -197,25 +197,25 @@ PoseEstimate estimatePose(const std::vector<Correspondence>& correspondences, co
 
   const auto solve_triple = [&](const std::array<int, 3>& triple) -> std::optional<Eigen::Isometry3d>
   {
-    Eigen::Matrix3Xd p_session(3, 3), p_camera(3, 3);
+    Eigen::Matrix3Xd p_world(3, 3), p_camera(3, 3);
     for (int k = 0; k < 3; ++k)
     {
       const Correspondence& drawn = correspondences[with_depth[triple[k]]];
-      p_session.col(k) = drawn.p_session;
+      p_world.col(k) = drawn.p_world;
       p_camera.col(k) = camera.unproject(drawn.pixel.x(), drawn.pixel.y(), drawn.depth_m);
     }
-    Eigen::Isometry3d T_session_camera;
-    if (!geometry::rigidTransformFromPoints(p_session, p_camera, &T_session_camera))
+    Eigen::Isometry3d T_world_camera;
+    if (!geometry::rigidTransformFromPoints(p_world, p_camera, &T_world_camera))
       return std::nullopt;
-    return T_session_camera;
+    return T_world_camera;
   };
-  const auto inlier_ratio = [&](const Eigen::Isometry3d& T_session_camera)
-  { return score(correspondences, camera, T_session_camera.inverse(), options) / static_cast<double>(count); };
+  const auto inlier_ratio = [&](const Eigen::Isometry3d& T_world_camera)
+  { return score(correspondences, camera, T_world_camera.inverse(), options) / static_cast<double>(count); };
   base::RansacOptions ransac_options;
   ransac_options.max_samples = options.max_hypotheses;
   ransac_options.confidence_ratio = options.confidence_ratio;
   ransac_options.seed = seed;
-  const base::Hypothesis<Eigen::Isometry3d> prior{ T_session_camera_prior, inlier_ratio(T_session_camera_prior) };
+  const base::Hypothesis<Eigen::Isometry3d> prior{ T_world_camera_prior, inlier_ratio(T_world_camera_prior) };
   const auto best =
       base::ransac<3, Eigen::Isometry3d>(with_depth.size(), ransac_options, solve_triple, inlier_ratio, prior);
   return refinePose(correspondences, camera, best->model, options);

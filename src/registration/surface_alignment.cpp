@@ -44,13 +44,13 @@ std::optional<SurfaceAlignment> alignFrames(const SurfaceView& a, const SurfaceV
   DenseAlignmentOptions options;
   if (start == SurfaceStart::NEAR)
     options.coarsest_level = 0;
-  // b is the reference with the session frame in its camera, so that a's T_camera_session is T_a_b.
+  // b is the reference with the session frame in its camera, so that a's T_camera_world is T_a_b.
   const DenseAlignment aligned =
       alignDense(SurfaceAccess::data(b).reference, Eigen::Isometry3d::Identity(), SurfaceAccess::data(a).pyramid,
                  T_a_b_start.inverse(), geometry::Matrix6d::Zero(), options);
   if (!convincing(aligned.term))
     return std::nullopt;
-  return SurfaceAlignment{ aligned.T_session_camera.inverse(), aligned.term.equations.A, aligned.term.overlap };
+  return SurfaceAlignment{ aligned.T_world_camera.inverse(), aligned.term.equations.A, aligned.term.overlap };
 }
 
 }  // namespace object_modelling::registration

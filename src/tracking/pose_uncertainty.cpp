@@ -66,7 +66,7 @@ registration::QuadraticTerm predictionTerm(const Eigen::Isometry3d& T_session_ca
                                            const geometry::Matrix6d& covariance_of_motion)
 {
   registration::QuadraticTerm term;
-  term.T_camera_session = T_session_camera.inverse();
+  term.T_camera_world = T_session_camera.inverse();
   term.equations.A = (inCameraFrame(covariance_before, T_session_camera) + covariance_of_motion).inverse();
   return term;
 }
@@ -75,7 +75,7 @@ bool contradicts(const registration::PoseEstimate& pose, const registration::Qua
 {
   constexpr double MAX_SQUARED_SIGMAS = 50;
   const geometry::Vector6d off =
-      geometry::vectorFromIsometry(pose.T_session_camera.inverse() * prediction.T_camera_session.inverse());
+      geometry::vectorFromIsometry(pose.T_world_camera.inverse() * prediction.T_camera_world.inverse());
   return off.dot(prediction.equations.A * off) > MAX_SQUARED_SIGMAS;
 }
 

@@ -93,7 +93,7 @@ Relocalisation relocalise(const rgbd::Frame& frame, const KeyframeMap& map,
     most_inliers = std::max(most_inliers, pose.inlier_count);
     if (!pose.valid || pose.inlier_count < options.min_inliers ||
         pose.inlier_count < options.min_inlier_ratio * static_cast<double>(correspondences.size()) ||
-        depthAgreement(frame, *keyframe, pose.T_session_camera) < options.min_depth_agreement_ratio)
+        depthAgreement(frame, *keyframe, pose.T_world_camera) < options.min_depth_agreement_ratio)
       continue;
     if (!best.keyframe || pose.inlier_count > best.pose.inlier_count)
     {

@@ -49,7 +49,7 @@ std::optional<registration::DenseAlignment> relocaliseBySurfaces(
     return std::nullopt;
   registration::DenseAlignmentOptions fine;
   fine.coarsest_level = 0;
-  best = registration::alignDense(best_keyframe->dense(), best_keyframe->T_session_camera, frame, best.T_session_camera,
+  best = registration::alignDense(best_keyframe->dense(), best_keyframe->T_session_camera, frame, best.T_world_camera,
                                   geometry::Matrix6d::Zero(), fine);
   if (!best.converged || !registration::certain(best.term))
     return std::nullopt;

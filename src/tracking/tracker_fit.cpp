@@ -27,12 +27,12 @@ registration::QuadraticTerm termOf(const registration::DenseAlignment& aligned, 
                                    const registration::QuadraticTerm* prediction)
 {
   registration::QuadraticTerm term;
-  term.T_camera_session = aligned.T_session_camera.inverse();
+  term.T_camera_world = aligned.T_world_camera.inverse();
   if (surfaces_fit)
     term.equations = aligned.term.equations;
   // What nothing tells of a lost camera shows as a large covariance.
   if (prediction)
-    term.equations += prediction->at(term.T_camera_session);
+    term.equations += prediction->at(term.T_camera_world);
   else
     term.equations.A += geometry::Matrix6d::Identity() / (LOST_SIGMA * LOST_SIGMA);
   return term;
@@ -87,7 +87,7 @@ CameraTracker::Implementation::Surfaces CameraTracker::Implementation::surfacesN
 {
   const StageTimer timer(&times->dense_ms);
   Surfaces surfaces;
-  surfaces.aligned.T_session_camera = T_session_camera;
+  surfaces.aligned.T_world_camera = T_session_camera;
   const std::vector<const MapKeyframe*> nearest = map_.nearestViews(T_session_camera, 1);
   if (nearest.empty())
     return surfaces;
@@ -116,7 +116,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeNea
   placement.reference = surfaces.reference;
   const MapKeyframe& reference = *surfaces.reference;
   const registration::DenseAlignment& aligned = surfaces.aligned;
-  const Eigen::Isometry3d& T_session_camera = aligned.T_session_camera;
+  const Eigen::Isometry3d& T_session_camera = aligned.T_world_camera;
   const bool surfaces_fit = registration::plausible(aligned.term);
   placement.overlap = aligned.term.overlap;
 
@@ -146,12 +146,12 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeNea
   const double error_rad = landmarks_fit ? placement.pose.reprojection_rmse_px / view.frame.camera.fx : SHAPE_ERROR_RAD;
   placement.relative_covariance =
       inSessionFrame(placement.pose.covariance + systematicCovariance(reference.median_depth_m, error_rad),
-                     placement.pose.T_session_camera);
+                     placement.pose.T_world_camera);
   if (surfaces.chained)
     placement.relative_covariance += last_covariance_;
-  placement.reason = unconstrained(
-      inCameraFrame(placement.relative_covariance + reference.covariance, placement.pose.T_session_camera),
-      reference.median_depth_m);
+  placement.reason =
+      unconstrained(inCameraFrame(placement.relative_covariance + reference.covariance, placement.pose.T_world_camera),
+                    reference.median_depth_m);
   if (!placement.reason.empty())
   {
     placement.pose.valid = false;

@@ -110,13 +110,13 @@ TrackingResult CameraTracker::Implementation::trackUsable(const rgbd::Frame& fra
     result.reason = "recognised a known view again";
   else if (placement.corrected)
     result.reason = placement.reason;
-  motion_.add(frame.stamp_s, placement.pose.T_session_camera, !lost_ && !placement.corrected);
+  motion_.add(frame.stamp_s, placement.pose.T_world_camera, !lost_ && !placement.corrected);
   T_robot_camera_last_ = T_robot_camera_;
   lost_ = false;
   lost_frames_ = 0;
   previous_placed_s_ = last_placed_s_;
   last_placed_s_ = frame.stamp_s;
-  result.T_session_camera = placement.pose.T_session_camera;
+  result.T_session_camera = placement.pose.T_world_camera;
   last_covariance_ = placement.relative_covariance;
   result.covariance = placement.relative_covariance + placement.reference->covariance;
   result.inlier_count = placement.pose.inlier_count;

@@ -57,7 +57,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::place(co
       placement = placeByAlignment(view, by_hand, times);
     if (placement.pose.valid && !placement.trusted && !placement.reference->trusted)
     {
-      Placement by_trusted = placeByTrusted(view, placement.pose.T_session_camera, times);
+      Placement by_trusted = placeByTrusted(view, placement.pose.T_world_camera, times);
       if (by_trusted.pose.valid && by_trusted.trusted)
         return by_trusted;
     }
@@ -80,7 +80,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByA
 {
   StageTimer timer(&times->dense_ms);
   Placement placement;
-  const Eigen::Isometry3d T_session_predicted = prediction.T_camera_session.inverse();
+  const Eigen::Isometry3d T_session_predicted = prediction.T_camera_world.inverse();
   const std::vector<const MapKeyframe*> nearest = map_.nearestViews(T_session_predicted, 1);
   if (nearest.empty())
   {
@@ -122,14 +122,14 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByA
   Surfaces surfaces = { &reference, aligned, false };
   if (chained)
   {
-    surfaces = surfacesNear(view, aligned.T_session_camera, times);
+    surfaces = surfacesNear(view, aligned.T_world_camera, times);
     if (!registration::convincing(surfaces.aligned.term))
       surfaces = { surfaces.reference, aligned, true };
   }
   placement = placeNear(view, surfaces, {}, ALIGNMENT_ERROR_PX, &prediction, times);
   if (placement.pose.valid)
   {
-    placement.reason = implausible(view.frame, placement.pose.T_session_camera);
+    placement.reason = implausible(view.frame, placement.pose.T_world_camera);
     placement.pose.valid = placement.reason.empty();
   }
   return placement;
@@ -152,7 +152,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByT
   if (!placement.pose.valid)
     return placement;
   placement.corrected = true;
-  const double off_mm = 1e3 * (placement.pose.T_session_camera.translation() - T_session_camera.translation()).norm();
+  const double off_mm = 1e3 * (placement.pose.T_world_camera.translation() - T_session_camera.translation()).norm();
   placement.reason =
       "among known views again, " + std::to_string(std::lround(off_mm)) + " mm from where blurred or poor ones had led";
   return placement;
@@ -172,7 +172,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByF
   std::vector<Eigen::Vector2f> from, predicted;
   for (const LandmarkMatch& match : last_inliers_)
   {
-    const Eigen::Vector3d p = prediction.T_camera_session * match.correspondence.p_session;
+    const Eigen::Vector3d p = prediction.T_camera_world * match.correspondence.p_world;
     from.push_back(match.correspondence.pixel.cast<float>());
     predicted.push_back(p.z() > 0.05 ? Eigen::Vector2f(camera_.project(p).cast<float>()) : from.back());
   }
@@ -188,12 +188,12 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByF
         frame.object_mask.at<std::uint8_t>(static_cast<int>(pixel.y()), static_cast<int>(pixel.x())) == 0)
       continue;
     matches.push_back({ last_inliers_[i].landmark_id,
-                        { last_inliers_[i].correspondence.p_session, pixel.cast<double>(),
+                        { last_inliers_[i].correspondence.p_world, pixel.cast<double>(),
                           rgbd::sampleDepth_m(frame.depth_m, pixel.x(), pixel.y()) },
                         last_inliers_[i].trusted });
   }
   const registration::PoseEstimate rough = registration::estimatePose(
-      correspondencesOf(matches), frame.camera, prediction.T_camera_session.inverse(), seed(), poseOptions(frame));
+      correspondencesOf(matches), frame.camera, prediction.T_camera_world.inverse(), seed(), poseOptions(frame));
   timer.stop();
   if (!rough.valid || rough.close_count < options_.min_inliers ||
       rough.inlier_count < options_.min_inlier_ratio * static_cast<double>(last_inliers_.size()))
@@ -202,11 +202,11 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByF
                        std::to_string(last_inliers_.size()) + " landmarks consistent";
     return placement;
   }
-  placement = placeNear(view, surfacesNear(view, rough.T_session_camera, times), inliersOf(matches, rough),
+  placement = placeNear(view, surfacesNear(view, rough.T_world_camera, times), inliersOf(matches, rough),
                         FLOW_PREDICTION_ERROR_PX, &prediction, times);
   if (placement.pose.valid)
   {
-    placement.reason = implausible(frame, placement.pose.T_session_camera);
+    placement.reason = implausible(frame, placement.pose.T_world_camera);
     placement.pose.valid = placement.reason.empty();
   }
   return placement;
@@ -221,8 +221,8 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByR
   if (by_surfaces)
   {
     timer.stop();
-    Placement placement = placeNear(view, surfacesNear(view, by_surfaces->T_session_camera, times), {},
-                                    ALIGNMENT_ERROR_PX, nullptr, times);
+    Placement placement =
+        placeNear(view, surfacesNear(view, by_surfaces->T_world_camera, times), {}, ALIGNMENT_ERROR_PX, nullptr, times);
     placement.wide_baseline = true;
     if (placement.pose.valid)
       return placement;
@@ -247,7 +247,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByR
     return placement;
   }
   Placement placement =
-      placeNear(view, surfacesNear(view, found.pose.T_session_camera, times), {}, RECOGNITION_ERROR_PX, nullptr, times);
+      placeNear(view, surfacesNear(view, found.pose.T_world_camera, times), {}, RECOGNITION_ERROR_PX, nullptr, times);
   placement.wide_baseline = true;
   return placement;
 }

@@ -59,7 +59,7 @@ TEST(PoseEstimation, IsExactWithoutNoise)
       estimatePose(correspondences(60, 0, 0), test_support::vgaCamera(), Eigen::Isometry3d::Identity(), 1, {});
   ASSERT_TRUE(found.valid);
   EXPECT_EQ(found.inlier_count, 60);
-  EXPECT_TRANSFORM_NEAR(found.T_session_camera, truth(), 1e-6, 1e-6);
+  EXPECT_TRANSFORM_NEAR(found.T_world_camera, truth(), 1e-6, 1e-6);
 }
 
 TEST(PoseEstimation, SurvivesHalfOutliersFromAFarPrior)
@@ -68,7 +68,7 @@ TEST(PoseEstimation, SurvivesHalfOutliersFromAFarPrior)
   spoil(&data, 0.5);
   const PoseEstimate found = estimatePose(data, test_support::vgaCamera(), Eigen::Isometry3d::Identity(), 1, {});
   ASSERT_TRUE(found.valid);
-  EXPECT_TRANSFORM_NEAR(found.T_session_camera, truth(), 0.001, 0.001);
+  EXPECT_TRANSFORM_NEAR(found.T_world_camera, truth(), 0.001, 0.001);
   for (std::size_t i = 100; i < 200; ++i)
     EXPECT_TRUE(found.inliers[i]) << i;
   EXPECT_LT(found.inlier_count, 106);
@@ -84,7 +84,7 @@ TEST(PoseEstimation, NeedsNoDepthInTheCurrentFrameNearThePrior)
   const PoseEstimate found =
       estimatePose(data, test_support::vgaCamera(), geometry::isometryFromVector(off) * truth(), 1, {});
   ASSERT_TRUE(found.valid);
-  EXPECT_TRANSFORM_NEAR(found.T_session_camera, truth(), 0.0015, 0.0015);
+  EXPECT_TRANSFORM_NEAR(found.T_world_camera, truth(), 0.0015, 0.0015);
 }
 
 TEST(PoseEstimation, IgnoresDepthsThatContradict)
@@ -94,7 +94,7 @@ TEST(PoseEstimation, IgnoresDepthsThatContradict)
     data[i].depth_m += 0.1;
   const PoseEstimate found = estimatePose(data, test_support::vgaCamera(), Eigen::Isometry3d::Identity(), 1, {});
   ASSERT_TRUE(found.valid);
-  EXPECT_TRANSFORM_NEAR(found.T_session_camera, truth(), 0.001, 0.001);
+  EXPECT_TRANSFORM_NEAR(found.T_world_camera, truth(), 0.001, 0.001);
 }
 
 TEST(PoseEstimation, RefusesDegenerateInput)
@@ -116,7 +116,7 @@ TEST(PoseEstimation, SameSeedSameBytes)
   spoil(&data, 0.4);
   const PoseEstimate a = estimatePose(data, test_support::vgaCamera(), Eigen::Isometry3d::Identity(), 7, {});
   const PoseEstimate b = estimatePose(data, test_support::vgaCamera(), Eigen::Isometry3d::Identity(), 7, {});
-  EXPECT_EQ(a.T_session_camera.matrix(), b.T_session_camera.matrix());
+  EXPECT_EQ(a.T_world_camera.matrix(), b.T_world_camera.matrix());
   EXPECT_EQ(a.covariance, b.covariance);
 }
 
@@ -133,7 +133,7 @@ TEST(PoseEstimation, CovarianceMatchesTheSpread)
         refinePose(correspondences(80, 0.5, 0.0015, 100 + draw), test_support::vgaCamera(), truth(), {});
     ASSERT_TRUE(found.valid);
     const geometry::Vector6d error =
-        geometry::vectorFromIsometry(found.T_session_camera * truth().inverse(Eigen::Isometry));
+        geometry::vectorFromIsometry(found.T_world_camera * truth().inverse(Eigen::Isometry));
     spread += error * error.transpose() / DRAWS;
     predicted += found.covariance / DRAWS;
   }

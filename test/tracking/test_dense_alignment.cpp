@@ -73,9 +73,9 @@ TEST(DenseAlignment, RecoversSeveralDegreesAndCentimetresBothWays)
     const View b(renderUnmasked(scene, poseB(), 1));
     const registration::DenseAlignment forwards = align(a, b);
     const registration::DenseAlignment backwards = align(b, a);
-    EXPECT_TRANSFORM_NEAR(forwards.T_session_camera, T_A_B, TOLERANCE_M, TOLERANCE_RAD);
-    EXPECT_TRANSFORM_NEAR(backwards.T_session_camera, T_A_B.inverse(), TOLERANCE_M, TOLERANCE_RAD);
-    EXPECT_TRANSFORM_NEAR(forwards.T_session_camera * backwards.T_session_camera, IDENTITY, TOLERANCE_M, TOLERANCE_RAD);
+    EXPECT_TRANSFORM_NEAR(forwards.T_world_camera, T_A_B, TOLERANCE_M, TOLERANCE_RAD);
+    EXPECT_TRANSFORM_NEAR(backwards.T_world_camera, T_A_B.inverse(), TOLERANCE_M, TOLERANCE_RAD);
+    EXPECT_TRANSFORM_NEAR(forwards.T_world_camera * backwards.T_world_camera, IDENTITY, TOLERANCE_M, TOLERANCE_RAD);
     for (const registration::DenseAlignment& aligned : { forwards, backwards })
     {
       EXPECT_TRUE(registration::convincing(aligned.term)) << registration::describe(aligned.term);
@@ -90,7 +90,7 @@ TEST(DenseAlignment, WherePointsLieInTheSessionDoesNotMatter)
   const View b(renderUnmasked(test_support::boxOnTable(), poseB(), 1));
   const registration::DenseAlignment aligned =
       registration::alignDense(a.reference, poseA(), b.dense, poseA(), geometry::Matrix6d::Zero());
-  EXPECT_TRANSFORM_NEAR(aligned.T_session_camera, poseB(), TOLERANCE_M, TOLERANCE_RAD);
+  EXPECT_TRANSFORM_NEAR(aligned.T_world_camera, poseB(), TOLERANCE_M, TOLERANCE_RAD);
 }
 
 TEST(DenseAlignment, ATightPriorHoldsTheStart)
@@ -98,7 +98,7 @@ TEST(DenseAlignment, ATightPriorHoldsTheStart)
   const View a(renderUnmasked(test_support::boxOnTable(), poseA(), 0));
   const View b(renderUnmasked(test_support::boxOnTable(), poseB(), 1));
   const geometry::Matrix6d prior = 1e14 * geometry::Matrix6d::Identity();
-  EXPECT_TRANSFORM_NEAR(registration::alignDense(a.reference, IDENTITY, b.dense, IDENTITY, prior).T_session_camera,
+  EXPECT_TRANSFORM_NEAR(registration::alignDense(a.reference, IDENTITY, b.dense, IDENTITY, prior).T_world_camera,
                         IDENTITY, 1e-4, 1e-4);
 }
 
@@ -109,8 +109,8 @@ TEST(DenseAlignment, ExposureDoesNotCount)
   frame_b.gray.convertTo(frame_b.gray, CV_8U, 0.8, 15);
   const View a(frame_a), b(frame_b);
   const registration::DenseAlignment forwards = align(a, b);
-  EXPECT_TRANSFORM_NEAR(forwards.T_session_camera, T_A_B, TOLERANCE_M, TOLERANCE_RAD);
-  EXPECT_TRANSFORM_NEAR(align(b, a).T_session_camera, T_A_B.inverse(), TOLERANCE_M, TOLERANCE_RAD);
+  EXPECT_TRANSFORM_NEAR(forwards.T_world_camera, T_A_B, TOLERANCE_M, TOLERANCE_RAD);
+  EXPECT_TRANSFORM_NEAR(align(b, a).T_world_camera, T_A_B.inverse(), TOLERANCE_M, TOLERANCE_RAD);
   EXPECT_TRUE(registration::convincing(forwards.term)) << registration::describe(forwards.term);
 }
 
@@ -121,11 +121,11 @@ TEST(DenseAlignment, AThirdOfTheViewHiddenDoesNotCount)
   occlude(0.3, &frame_b);
   const View a(frame_a), b(frame_b);
   const registration::DenseAlignment forwards = align(a, b);
-  EXPECT_TRANSFORM_NEAR(forwards.T_session_camera, T_A_B, TOLERANCE_M, TOLERANCE_RAD);
+  EXPECT_TRANSFORM_NEAR(forwards.T_world_camera, T_A_B, TOLERANCE_M, TOLERANCE_RAD);
   EXPECT_TRUE(registration::convincing(forwards.term)) << registration::describe(forwards.term);
   EXPECT_LT(forwards.term.overlap, 0.85);
   // The other way round what was close is gone.
-  EXPECT_TRANSFORM_NEAR(align(b, a).T_session_camera, T_A_B.inverse(), TOLERANCE_M, TOLERANCE_RAD);
+  EXPECT_TRANSFORM_NEAR(align(b, a).T_world_camera, T_A_B.inverse(), TOLERANCE_M, TOLERANCE_RAD);
 }
 
 TEST(DenseAlignment, WithMasksTheObjectAloneCounts)
@@ -142,13 +142,13 @@ TEST(DenseAlignment, WithMasksTheObjectAloneCounts)
   const Eigen::Isometry3d T_a_b = poseA().inverse() * T_moved.inverse() * poseA();
   {
     const View a(frame_a), b(frame_b);
-    EXPECT_TRANSFORM_NEAR(align(a, b).T_session_camera, T_a_b, 0.003, 0.005);
-    EXPECT_TRANSFORM_NEAR(align(b, a).T_session_camera, T_a_b.inverse(), 0.003, 0.005);
+    EXPECT_TRANSFORM_NEAR(align(a, b).T_world_camera, T_a_b, 0.003, 0.005);
+    EXPECT_TRANSFORM_NEAR(align(b, a).T_world_camera, T_a_b.inverse(), 0.003, 0.005);
   }
   frame_a.object_mask.release();
   frame_b.object_mask.release();
   const View a(frame_a), b(frame_b);
-  const double angle_rad = geometry::rotationAngle_rad(align(a, b).T_session_camera.inverse() * T_a_b);
+  const double angle_rad = geometry::rotationAngle_rad(align(a, b).T_world_camera.inverse() * T_a_b);
   EXPECT_GT(angle_rad, 0.01) << "without masks the table has its say";
 }
 
@@ -254,7 +254,7 @@ TEST(DenseAlignment, NothingToGoByIsNeverPlausible)
     {
       EXPECT_FALSE(registration::plausible(aligned.term)) << i << ": " << registration::describe(aligned.term);
       EXPECT_FALSE(registration::certain(aligned.term)) << i;
-      EXPECT_TRUE(aligned.T_session_camera.matrix().allFinite()) << i;
+      EXPECT_TRUE(aligned.T_world_camera.matrix().allFinite()) << i;
       EXPECT_TRUE(aligned.term.equations.A.allFinite()) << i;
       EXPECT_GE(registration::quality(aligned.term), 0) << i;
     }

@@ -84,11 +84,11 @@ TEST(SurfaceRelocaliser, FindsTheRightOneOfFourViews)
         test_support::renderFrame(plainScene(), TrackingScene::camera(), T_world_camera, sensorNoise(7 + i));
     const std::optional<registration::DenseAlignment> found = map.find(frame);
     ASSERT_TRUE(found) << i;
-    EXPECT_TRANSFORM_NEAR(found->T_session_camera, T_world_camera, 0.004, 0.006) << i;
+    EXPECT_TRANSFORM_NEAR(found->T_world_camera, T_world_camera, 0.004, 0.006) << i;
     // A hint that is wrong does no harm.
     const std::optional<registration::DenseAlignment> misled = map.find(frame, map.T_world_camera((i + 1) % 4));
     ASSERT_TRUE(misled) << i;
-    EXPECT_TRANSFORM_NEAR(misled->T_session_camera, T_world_camera, 0.004, 0.006) << i;
+    EXPECT_TRANSFORM_NEAR(misled->T_world_camera, T_world_camera, 0.004, 0.006) << i;
   }
 }
 

@@ -31,22 +31,22 @@ struct DenseTerm
 };
 
 /// Point-to-plane depth and photometric residuals of a reference's points in a frame at one level (Kerl, Sturm, Cremers
-/// 2013; Chen & Medioni 1992), each weighed by its robust scale. `T_camera_session` is what the motion of the
-/// equations is applied to; `T_session_reference` places the points.
-DenseTerm evaluateDense(const DensePoints& points, const DenseLevel& level, const Eigen::Isometry3d& T_camera_session,
-                        const Eigen::Isometry3d& T_session_reference, const DenseAlignmentOptions& options);
+/// 2013; Chen & Medioni 1992), each weighed by its robust scale. `T_camera_world` is what the motion of the
+/// equations is applied to; `T_world_reference` places the points.
+DenseTerm evaluateDense(const DensePoints& points, const DenseLevel& level, const Eigen::Isometry3d& T_camera_world,
+                        const Eigen::Isometry3d& T_world_reference, const DenseAlignmentOptions& options);
 
 struct DenseAlignment
 {
   bool converged = false;
-  Eigen::Isometry3d T_session_camera = Eigen::Isometry3d::Identity();  ///< where `term` was evaluated
-  DenseTerm term;                                                      ///< at the finest level used
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();  ///< where `term` was evaluated
+  DenseTerm term;                                                    ///< at the finest level used
 };
 
 /// Coarse to fine Gauss-Newton from a start that may be several degrees off. `prior` (information about
-/// T_session_camera_start, in the order of the normal equations) holds what neither depth nor intensity constrain.
-DenseAlignment alignDense(const DenseReference& reference, const Eigen::Isometry3d& T_session_reference,
-                          const DensePyramid& frame, const Eigen::Isometry3d& T_session_camera_start,
+/// T_world_camera_start, in the order of the normal equations) holds what neither depth nor intensity constrain.
+DenseAlignment alignDense(const DenseReference& reference, const Eigen::Isometry3d& T_world_reference,
+                          const DensePyramid& frame, const Eigen::Isometry3d& T_world_camera_start,
                           const geometry::Matrix6d& prior, const DenseAlignmentOptions& options = {});
 
 }  // namespace object_modelling::registration

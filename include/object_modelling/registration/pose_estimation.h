@@ -15,7 +15,7 @@ namespace object_modelling::registration
 /// A known point and where the current frame sees it.
 struct Correspondence
 {
-  Eigen::Vector3d p_session;
+  Eigen::Vector3d p_world;
   Eigen::Vector2d pixel;
   double depth_m = 0;  ///< measured in the current frame; NaN where it has none
 };
@@ -23,7 +23,7 @@ struct Correspondence
 /// What else is known of the pose (surfaces, predicted motion), as least squares about one pose near the solution.
 struct QuadraticTerm
 {
-  Eigen::Isometry3d T_camera_session = Eigen::Isometry3d::Identity();  ///< where the equations hold
+  Eigen::Isometry3d T_camera_world = Eigen::Isometry3d::Identity();  ///< where the equations hold
   geometry::NormalEquations equations;
 
   geometry::NormalEquations at(const Eigen::Isometry3d& T) const;
@@ -44,8 +44,8 @@ struct PoseEstimationOptions
 struct PoseEstimate
 {
   bool valid = false;
-  Eigen::Isometry3d T_session_camera = Eigen::Isometry3d::Identity();
-  geometry::Matrix6d covariance = geometry::Matrix6d::Zero();  ///< of T_camera_session, a motion in the camera frame
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  geometry::Matrix6d covariance = geometry::Matrix6d::Zero();  ///< of T_camera_world, a motion in the camera frame
   std::vector<std::uint8_t> inliers;                           ///< per correspondence
   int inlier_count = 0;
   int close_count = 0;              ///< inliers within max_reprojection_error_px, however wide the gate was
@@ -56,13 +56,13 @@ struct PoseEstimate
 /// and on `term` if given, from a start that is close. Not valid for fewer than 4 inliers without a term that holds all
 /// six directions.
 PoseEstimate refinePose(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
-                        const Eigen::Isometry3d& T_session_camera_start, const PoseEstimationOptions& options,
+                        const Eigen::Isometry3d& T_world_camera_start, const PoseEstimationOptions& options,
                         const QuadraticTerm* term = nullptr);
 
-/// Seeded, adaptive RANSAC on three 3-D to 3-D correspondences, `T_session_camera_prior` as its first hypothesis, and
+/// Seeded, adaptive RANSAC on three 3-D to 3-D correspondences, `T_world_camera_prior` as its first hypothesis, and
 /// refinePose() on the result. Not valid for fewer than 4 correspondences.
 PoseEstimate estimatePose(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
-                          const Eigen::Isometry3d& T_session_camera_prior, std::uint64_t seed,
+                          const Eigen::Isometry3d& T_world_camera_prior, std::uint64_t seed,
                           const PoseEstimationOptions& options);
 
 }  // namespace object_modelling::registration
