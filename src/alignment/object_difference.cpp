@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "difference_weights.h"
+#include "object_modelling/base/statistics.h"
 #include "object_modelling/registration/pair_measure.h"
 
 namespace object_modelling::alignment
@@ -16,12 +19,13 @@ constexpr double SAME_SHAPE_SPACINGS = 1.5;  // distance of surfaces that are th
 constexpr float SAME_SIDE_COSINE = 0.5F;
 constexpr double FREE_STRAY_RATIO = 0.005;  // less is noise
 constexpr double COLOR_VARIANCE = 0.002;    // of colours of one surface, at least
-constexpr double MOST_GAP = 7;              // further below the best one, a pose hardly counts
+constexpr double NOISE_QUANTILE = 0.95;     // of the differences of the two sessions' colours at the best pose
+constexpr float LEAST_PRINT = 0.15F;        // difference of colours that is noise in any case
 
 /// What becomes of the points of one part.
 struct Moved
 {
-  double stray = 0, unknown = 0, met = 0, squares = 0;
+  double stray = 0, unknown = 0, met = 0, squares = 0, print = 0;
 };
 
 /// Point of a part that a moved point comes to lie on; -1 if it lies on none.
@@ -36,11 +40,30 @@ int metBy(const registration::MatchedSurface& part, const Eigen::Vector3f& p, co
   return beside || off.norm() <= reach_m ? j : -1;
 }
 
+float sameReach_m(const registration::MatchedSurface& a, const registration::MatchedSurface& b)
+{
+  return static_cast<float>(SAME_SHAPE_SPACINGS * std::max(a.model.spacing_m, b.model.spacing_m));
+}
+
+/// What the colours of one place differ by between the sessions, at most: more is other print.
+float colorNoise(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
+                 const Eigen::Isometry3f& T_a_b)
+{
+  std::vector<float> differences;
+  for (const int i : b.fine_samples)
+  {
+    const int j = metBy(a, T_a_b * b.model.points[i], T_a_b.linear() * b.model.normals[i], sameReach_m(a, b));
+    if (j >= 0)
+      differences.push_back((a.blurred_colors[j] - b.blurred_colors[i]).norm());
+  }
+  return std::max(LEAST_PRINT, base::quantile(std::move(differences), NOISE_QUANTILE));
+}
+
 /// Moves the points of a part by `T` in its own frame.
 Moved move(const registration::MatchedSurface& part, const registration::MatchedSurface& other,
-           const Eigen::Isometry3f& T_other_part, const Eigen::Isometry3f& T)
+           const Eigen::Isometry3f& T_other_part, const Eigen::Isometry3f& T, float color_noise)
 {
-  const auto reach_m = static_cast<float>(SAME_SHAPE_SPACINGS * std::max(part.model.spacing_m, other.model.spacing_m));
+  const float reach_m = sameReach_m(part, other);
   Moved result;
   for (const int i : part.fine_samples)
   {
@@ -56,7 +79,9 @@ Moved move(const registration::MatchedSurface& part, const registration::Matched
     if (j >= 0)
     {
       result.met += 1;
-      result.squares += (met->blurred_colors[j] - part.blurred_colors[i]).squaredNorm();
+      const float squared = (met->blurred_colors[j] - part.blurred_colors[i]).squaredNorm();
+      result.squares += squared;
+      result.print += squared > color_noise * color_noise;
     }
     else if (registration::seenThrough(part.model.views, p) || registration::seenThrough(other.model.views, p_other))
       result.stray += 1;
@@ -72,20 +97,23 @@ ObjectDifference differenceOf(const registration::MatchedSurface& a, const regis
 {
   const Eigen::Isometry3f T_b_a_best = T_a_b_best.inverse(), T_b_a_rival = T_a_b_rival.inverse();
   ObjectDifference result;
+  const float noise = colorNoise(a, b, T_a_b_best);
   double count = 0, unknown = 0, met = 0, squares = 0;
-  const auto add = [&](const registration::MatchedSurface& part, const Moved& moved)
+  const auto add = [&](const registration::MatchedSurface& part, const Moved& forth, const Moved& back)
   {
     const auto all = static_cast<double>(part.fine_samples.size());
-    count += all;
-    unknown += moved.unknown;
-    met += moved.met;
-    squares += moved.squares;
-    result.stray_ratio = std::max(result.stray_ratio, moved.stray / std::max(1.0, all));
+    const double met_here = forth.met + back.met;
+    count += 2 * all;
+    unknown += forth.unknown + back.unknown;
+    met += met_here;
+    squares += forth.squares + back.squares;
+    result.stray_ratio = std::max(result.stray_ratio, std::max(forth.stray, back.stray) / std::max(1.0, all));
+    result.print_ratio = std::max(result.print_ratio, (forth.print + back.print) / std::max(1.0, met_here));
   };
-  add(b, move(b, a, T_a_b_best, T_b_a_best * T_a_b_rival));
-  add(b, move(b, a, T_a_b_best, T_b_a_rival * T_a_b_best));
-  add(a, move(a, b, T_b_a_best, T_a_b_best * T_b_a_rival));
-  add(a, move(a, b, T_b_a_best, T_a_b_rival * T_b_a_best));
+  add(b, move(b, a, T_a_b_best, T_b_a_best * T_a_b_rival, noise),
+      move(b, a, T_a_b_best, T_b_a_rival * T_a_b_best, noise));
+  add(a, move(a, b, T_b_a_best, T_a_b_best * T_b_a_rival, noise),
+      move(a, b, T_b_a_best, T_a_b_rival * T_b_a_best, noise));
   result.unknown_ratio = unknown / std::max(1.0, count);
   result.color_variance = squares / std::max(1.0, met);
   return result;
@@ -108,12 +136,12 @@ const char* nameOf(DifferenceFeature feature)
 DifferenceFeatures featuresOf(const ObjectDifference& difference, double log_odds_gap)
 {
   return { std::log(difference.stray_ratio + FREE_STRAY_RATIO), std::log(difference.color_variance + COLOR_VARIANCE),
-           std::min(log_odds_gap, MOST_GAP) };
+           std::clamp(log_odds_gap, 0.0, MAX_RIVALRY) };
 }
 
 double sameObjectProbability(const ObjectDifference& difference, double log_odds_gap)
 {
-  if (difference.unknown_ratio > MAX_UNKNOWN_RATIO)
+  if (difference.unknown_ratio > MAX_UNKNOWN_RATIO || difference.print_ratio > MAX_PRINT_RATIO)
     return 0;
   const DifferenceFeatures features = featuresOf(difference, log_odds_gap);
   double log_odds = DIFFERENCE_BIAS;

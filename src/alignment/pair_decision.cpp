@@ -18,6 +18,7 @@ constexpr double MAX_STRAY_RATIO = 0.04;   // of the points where nothing is: an
 constexpr double HARDLY_AGAINST = -1;      // what a figure takes off the log odds, to be named as the reason
 constexpr double MAX_LOG_ODDS = 500;       // exponents beyond overflow
 constexpr double MAX_FSV_RATIO = 0.05;     // of the surface; right poses of the fitted and calibrated objects: 0.03
+constexpr double JOINED = 0.5;             // probability of making the same object, beyond which one is spoken of
 constexpr double ASKED_PROBABILITY = 0.1;  // of the same pose: below it no such pose is taken unasked
 
 const std::string REMEDY =
@@ -36,6 +37,12 @@ std::string percent(double ratio)
   std::ostringstream out;
   out << std::lround(100 * ratio) << " %";
   return out.str();
+}
+
+/// Rounded down: what is short of a limit does not look like it.
+std::string percentBelow(double ratio)
+{
+  return percent(std::floor(100 * ratio) / 100);
 }
 
 std::string millimetres(double length_m)
@@ -61,7 +68,7 @@ std::string whyUnlikely(const registration::PairQuality& quality, const PairAlig
   if (quality.fsv_ratio > MAX_FSV_RATIO)
     return percent(quality.fsv_ratio) + IN_EMPTY_SPACE;
   if (worst > HARDLY_AGAINST)
-    return "the best pose is right with a probability of " + percent(quality.probability) + " only (at least " +
+    return "the best pose is right with a probability of " + percentBelow(quality.probability) + " only (at least " +
            percent(options.min_probability) +
            " is needed): nothing speaks against it, but too little for it; record more of what both sessions see, or "
            "lean "
@@ -129,54 +136,69 @@ std::vector<Compared> compared(const registration::MatchedSurface& a, const regi
   return result;
 }
 
+/// Probability of a pose if there were no other.
+double aloneProbability(const registration::PairQuality& quality, const PairAlignmentOptions& options)
+{
+  return 1 / (1 + std::exp(-logOdds(quality, options.same_pose_probability)));
+}
+
+bool fitsAtAll(const registration::PairQuality& quality, const PairAlignmentOptions& options)
+{
+  return quality.overlap_ratio >= options.min_overlap_ratio && quality.fsv_ratio <= MAX_FSV_RATIO;
+}
+
 /// Of a pose at which nobody had turned the object over there may be one that makes the same object, at which somebody
-/// had: that one then leads. A can fits its upright self best, and lying down as well as it can.
+/// had, and which would do alone: the most probable such one then leads. A can fits its upright self best, and lying
+/// down as well as it can.
 void leadByTurned(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
                   const PairAlignmentOptions& options, std::vector<PairCandidate>* candidates)
 {
   if (!refusesAsNotTurned(candidates->front().quality, options))
     return;
   for (const Compared& other : compared(a, b, *candidates, 0, options))
-    if (other.same_object_probability > 0.5 && !saysNotTurned((*candidates)[other.index].quality))
-    {
-      std::rotate(candidates->begin(), candidates->begin() + static_cast<std::ptrdiff_t>(other.index),
-                  candidates->begin() + static_cast<std::ptrdiff_t>(other.index) + 1);
-      return;
-    }
+  {
+    const registration::PairQuality& quality = (*candidates)[other.index].quality;
+    if (other.same_object_probability <= JOINED || saysNotTurned(quality) || !fitsAtAll(quality, options) ||
+        aloneProbability(quality, options) < options.min_probability)
+      continue;
+    std::rotate(candidates->begin(), candidates->begin() + static_cast<std::ptrdiff_t>(other.index),
+                candidates->begin() + static_cast<std::ptrdiff_t>(other.index) + 1);
+    return;
+  }
 }
 
-/// The most probable pose that makes another object than the best one.
-struct Rival
+/// What the other poses say of the best one.
+struct Rivals
 {
-  const PairCandidate* candidate = nullptr;  ///< null: there is none to speak of
-  ObjectDifference difference;
+  const PairCandidate* candidate = nullptr;  ///< most probable one that makes another object; null: none to speak of
+  ObjectDifference difference;               ///< of that one
+  std::size_t same = 0;                      ///< those that probably make the same object
 };
 
-/// Any pose that makes the same object as the first one makes that one right too. Those that do have one probability in
-/// common, that of all of them.
-Rival joinEquivalent(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
-                     const PairAlignmentOptions& options, std::vector<PairCandidate>* candidates)
+/// Any pose that makes the same object as the first one makes that one right too: it counts for the first one by how
+/// probably it does, and the first one, with all that it has, for each of them.
+Rivals joinEquivalent(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
+                      const PairAlignmentOptions& options, std::vector<PairCandidate>* candidates)
 {
-  double together = candidates->front().quality.probability;
-  std::vector<PairCandidate*> equivalent = { &candidates->front() };
-  Rival rival;
-  double rival_probability = 0;
-  for (const Compared& other : compared(a, b, *candidates, 0, options))
+  const std::vector<Compared> others = compared(a, b, *candidates, 0, options);
+  double& together = candidates->front().quality.probability;
+  for (const Compared& other : others)
+    together += other.same_object_probability * (*candidates)[other.index].quality.probability;
+  Rivals rivals;
+  for (const Compared& other : others)
   {
     PairCandidate& pose = (*candidates)[other.index];
-    const double same = other.same_object_probability;
-    together += same * pose.quality.probability;
-    if (same > 0.5)
-      equivalent.push_back(&pose);
-    if ((1 - same) * pose.quality.probability > rival_probability)
+    double& own = pose.quality.probability;
+    if (other.same_object_probability > JOINED)
+      ++rivals.same;
+    else if (!rivals.candidate)  // they are sorted
     {
-      rival_probability = (1 - same) * pose.quality.probability;
-      rival = { &pose, other.difference };
+      rivals.candidate = &pose;
+      rivals.difference = other.difference;
     }
+    own += other.same_object_probability * std::max(0.0, together - own);
   }
-  for (PairCandidate* pose : equivalent)
-    pose->quality.probability = together;
-  return rival;
+  return rivals;
 }
 
 double degreesBetween(const Eigen::Isometry3d& x, const Eigen::Isometry3d& y)
@@ -200,6 +222,16 @@ std::string whyAmbiguous(const PairCandidate& best, const PairCandidate& rival, 
          ": the shape is symmetric, and the print that both sessions see is alike in both: record the object so "
          "that a side that tells them apart is seen in both";
 }
+
+/// Why poses that probably make one object are too improbable together.
+std::string whyAlmost(const registration::PairQuality& quality, std::size_t same, const PairAlignmentOptions& options)
+{
+  return std::to_string(same + 1) + " poses probably make the same object, but are right with a probability of " +
+         percentBelow(quality.probability) + " only (at least " + percent(options.min_probability) +
+         " is needed): accept the best one if it looks right, or lean the object so that a printed face is seen in "
+         "both "
+         "sessions";
+}
 }  // namespace
 
 void decide(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
@@ -214,14 +246,14 @@ void decide(const registration::MatchedSurface& a, const registration::MatchedSu
   }
   const double any = weighUp(options, &result->candidates);
   leadByTurned(a, b, options, &result->candidates);
-  const Rival rival = joinEquivalent(a, b, options, &result->candidates);
+  const Rivals rivals = joinEquivalent(a, b, options, &result->candidates);
   const PairCandidate& best = result->candidates.front();
-  if (best.quality.overlap_ratio < options.min_overlap_ratio || best.quality.fsv_ratio > MAX_FSV_RATIO)
+  if (!fitsAtAll(best.quality, options))
     result->reason = whyUnlikely(best.quality, options);
-  else if (best.quality.probability < options.min_probability)
-    result->reason = rival.candidate && any >= options.min_probability
-                         ? whyAmbiguous(best, *rival.candidate, rival.difference)
-                         : whyUnlikely(best.quality, options);
+  else if (!(best.quality.probability >= options.min_probability))
+    result->reason = any < options.min_probability ? whyUnlikely(best.quality, options)
+                     : rivals.candidate            ? whyAmbiguous(best, *rivals.candidate, rivals.difference)
+                                                   : whyAlmost(best.quality, rivals.same, options);
   else if (refusesAsNotTurned(best.quality, options))
     result->reason = NOT_TURNED;
   else

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "object_modelling/registration/pair_figures.h"
 #include "report_text.h"
 
@@ -7,8 +5,6 @@ namespace object_modelling::cli
 {
 namespace
 {
-constexpr std::size_t REPORTED_CANDIDATES = 3;
-
 nlohmann::json toJson(const Eigen::Isometry3d& T)
 {
   nlohmann::json rows = nlohmann::json::array();
@@ -38,8 +34,8 @@ nlohmann::json toJson(const alignment::AlignmentResult& result)
   for (const alignment::AlignmentEdge& edge : result.edges)
   {
     nlohmann::json candidates = nlohmann::json::array();
-    for (std::size_t i = 0; i < std::min(edge.candidates.size(), REPORTED_CANDIDATES); ++i)
-      candidates.push_back(toJson(edge.candidates[i]));
+    for (const alignment::PairCandidate& candidate : edge.candidates)
+      candidates.push_back(toJson(candidate));
     json["edges"].push_back({ { "session_a", edge.session_a },
                               { "session_b", edge.session_b },
                               { "decision", alignment::nameOf(edge.decision) },

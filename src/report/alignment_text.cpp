@@ -1,3 +1,4 @@
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -15,9 +16,10 @@ std::string toText(const alignment::AlignmentResult& result)
         << (edge.accepted ? edge.used ? "accepted" : "accepted, not used" : "refused")
         << (edge.decision == alignment::Decision::AUTOMATIC ? "" : " by a person");
     if (const alignment::PairCandidate* best = edge.best())
-      out << " (probability " << best->quality.probability << ", overlap " << best->quality.overlap_ratio
-          << ", free-space violation " << best->quality.fsv_ratio << ", surfaces " << 1000 * best->quality.rmse_m
-          << " mm apart, colours " << best->quality.color_agreement << ")";
+      // Rounded down: what is short of a limit does not look like it.
+      out << " (probability " << std::floor(100 * best->quality.probability) / 100 << ", overlap "
+          << best->quality.overlap_ratio << ", free-space violation " << best->quality.fsv_ratio << ", surfaces "
+          << 1000 * best->quality.rmse_m << " mm apart, colours " << best->quality.color_agreement << ")";
     out << (edge.reason.empty() ? "" : "\n          " + edge.reason) << "\n";
   }
   for (const alignment::SessionPlacement& placed : result.placements)

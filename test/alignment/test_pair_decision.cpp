@@ -213,7 +213,8 @@ TEST_F(DecisionOfAPlate, JoinsThePosesThatMakeTheSameObject)
   const double same = sameObjectProbability({}, 0), all = 1 + 2 * oddsOf(bare());
   EXPECT_GT(same, 0.9);
   EXPECT_NEAR(found.candidates[0].quality.probability, (1 + same) * oddsOf(bare()) / all, 1e-9);
-  EXPECT_EQ(found.candidates[0].quality.probability, found.candidates[1].quality.probability);
+  EXPECT_NEAR(found.candidates[1].quality.probability,
+              oddsOf(bare()) / all + same * (found.candidates[0].quality.probability - oddsOf(bare()) / all), 1e-9);
 }
 
 TEST_F(DecisionOfAPlate, CountsARivalByHowProbablyItMakesTheSameObject)
@@ -228,8 +229,8 @@ TEST_F(DecisionOfAPlate, CountsARivalByHowProbablyItMakesTheSameObject)
   EXPECT_LT(same(quarter_), 0.5);
   const double all = 1 + 3 * oddsOf(bare());
   EXPECT_NEAR(found.candidates[0].quality.probability, (1 + same(half_) + same(quarter_)) * oddsOf(bare()) / all, 1e-9);
-  EXPECT_EQ(found.candidates[0].quality.probability, found.candidates[1].quality.probability);
-  EXPECT_NEAR(found.candidates[2].quality.probability, oddsOf(bare()) / all, 1e-12) << "not joined";
+  EXPECT_GT(found.candidates[0].quality.probability, found.candidates[1].quality.probability);
+  EXPECT_GT(found.candidates[1].quality.probability, found.candidates[2].quality.probability + 0.1);
   expectReason(found, "two poses 90 deg apart score alike");
 }
 
@@ -257,6 +258,40 @@ TEST(PairDecision, PrintThatDiffersMakesTwoPosesLessTheSame)
   expectReason(decidedOfHalfTurn(half_painted(1.5F), pale), "the sides that both sessions see are plain");
 }
 
+/// One session saw the plain middle of a plate only, the other all of it and a label on one end.
+TEST(PairDecision, ALabelThatOneSessionSawMakesOtherObjects)
+{
+  const registration::PartialModel middle = plate(40, 40, registration::plain);
+  for (const float difference : { 0.2F, 0.3F, 0.5F, 1.0F })
+  {
+    const registration::PartialModel all =
+        plate(80, 40, [=](const Eigen::Vector3f& p) { return Eigen::Vector3f(p.x() > 0.045F ? difference : 0, 0, 0); });
+    const Eigen::Isometry3f half = registration::pose({ 0, 0, 0 }, static_cast<float>(M_PI), Z);
+    const PairAlignment found = decided(middle, all, { candidate(good()), candidate(good(), half) });
+    expectReason(found, "two poses 180 deg apart score alike");
+    EXPECT_NEAR(found.candidates[0].quality.probability, 0.5, 1e-3) << difference;
+  }
+}
+
+TEST(PairDecision, SaysHowManyMakeTheSameObjectWhereTheyAreTooFew)
+{
+  PairAlignmentOptions options;
+  options.min_probability = 0.9999;
+  const registration::PartialModel any = plate(80, 80, registration::plain);
+  const Eigen::Isometry3f half = registration::pose({ 0, 0, 0 }, static_cast<float>(M_PI), Z);
+  const PairAlignment found = decided(any, any, { candidate(good()), candidate(good(), half) }, options);
+  expectReason(found, "2 poses probably make the same object");
+  EXPECT_EQ(found.reason.find("100 % only"), std::string::npos) << found.reason;
+}
+
+TEST(PairDecision, WhatIsNotANumberIsNotAccepted)
+{
+  registration::PairQuality broken = good();
+  broken.rmse_m = std::nan("");
+  const registration::PartialModel any = plate(10, 10, registration::plain);
+  EXPECT_FALSE(decided(any, any, { candidate(good()), candidate(broken) }).accepted);
+}
+
 TEST(PairDecision, ATurnedPoseLeadsWhereItMakesTheSameObject)
 {
   const registration::PartialModel plate_ = plate(80, 80, registration::plain);
@@ -269,6 +304,16 @@ TEST(PairDecision, ATurnedPoseLeadsWhereItMakesTheSameObject)
   const PairAlignment found = decided(plate_, plate_, { candidate(stayed), candidate(turned, half) });
   EXPECT_TRUE(found.accepted) << found.reason;
   EXPECT_EQ(found.candidates[0].quality.turn_rad, turned.turn_rad);
+  turned.color_agreement = turned.edge_agreement = -0.9;
+  ASSERT_LT(oddsOf(turned), 0.1);
+  EXPECT_FALSE(decided(plate_, plate_, { candidate(stayed), candidate(turned, half) }).accepted)
+      << "it would not do alone";
+  turned = good();
+  registration::PairQuality in_empty_space = good();
+  in_empty_space.fsv_ratio = 0.055;
+  EXPECT_TRUE(
+      decided(plate_, plate_, { candidate(stayed), candidate(in_empty_space, half), candidate(turned, half) }).accepted)
+      << "the next one leads";
   const Eigen::Isometry3f elsewhere = registration::pose({ 0, 0, 0.3F }, 0, Z);
   EXPECT_FALSE(decided(plate_, plate_, { candidate(stayed), candidate(turned, elsewhere) }).accepted);
 }

@@ -156,13 +156,12 @@ std::vector<std::optional<alignment::DifferenceFeatures>> differencesFromFirst(
     const registration::PartialModel& part_a, const registration::PartialModel& part_b,
     const std::vector<alignment::PairCandidate>& candidates, const alignment::PairAlignmentOptions& options)
 {
-  constexpr double MOST_GAP = 7;  // of log odds: beyond it a pose does not count
   const registration::MatchedSurface a(part_a, options.threads), b(part_b, options.threads);
   std::vector<std::optional<alignment::DifferenceFeatures>> result(candidates.size());
   const auto log_odds = [&](std::size_t i)
   { return alignment::logOdds(candidates[i].quality, options.same_pose_probability); };
   for (std::size_t i = 1; i < candidates.size(); ++i)
-    if (const double gap = log_odds(0) - log_odds(i); gap < MOST_GAP)
+    if (const double gap = log_odds(0) - log_odds(i); gap < alignment::MAX_RIVALRY)
       result[i] = alignment::featuresOf(
           alignment::differenceOf(a, b, candidates[0].T_a_b.cast<float>(), candidates[i].T_a_b.cast<float>()), gap);
   return result;

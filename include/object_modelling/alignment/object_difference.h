@@ -16,9 +16,12 @@ struct ObjectDifference
   double stray_ratio = 0;     ///< of the points of one session, those moved to where views saw that nothing is
   double unknown_ratio = 0;   ///< of all points, those moved to where nobody looked
   double color_variance = 0;  ///< mean square of the differences of the colours of points that meet
+  /// Of the points of one session that meet any, those whose colours differ by more than those of the sessions do at
+  /// the best pose.
+  double print_ratio = 0;
 };
 
-/// Over all points of both sessions, moved forward and back; of the four shares of strays the largest.
+/// Over all points of both sessions, moved forward and back; of strays and of other print the larger share of the two.
 ObjectDifference differenceOf(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
                               const Eigen::Isometry3f& T_a_b_best, const Eigen::Isometry3f& T_a_b_rival);
 
@@ -30,6 +33,7 @@ enum class DifferenceFeature
   RIVALRY  ///< by how much the log odds of the rival are below those of the best: what is the same scores alike
 };
 constexpr std::size_t DIFFERENCE_FEATURE_COUNT = 3;
+constexpr double MAX_RIVALRY = 7;  ///< of log odds: further below the best one, a pose hardly counts
 using DifferenceFeatures = std::array<double, DIFFERENCE_FEATURE_COUNT>;
 
 /// "stray", "print" or "rivalry".
@@ -40,9 +44,13 @@ DifferenceFeatures featuresOf(const ObjectDifference& difference, double log_odd
 
 /// Where more than that is moved to where nobody looked, nobody knows.
 constexpr double MAX_UNKNOWN_RATIO = 0.15;
+/// Where more than that meets other print, it is another object, however alike the two poses score: what one session
+/// alone saw of the print has no say in that. 0.05 is noise.
+constexpr double MAX_PRINT_RATIO = 0.25;
 
 /// Probability that the rival makes the same object as the best pose, given that the best one is right
-/// (docs/alignment.md tells how its weights were learnt); 0 beyond MAX_UNKNOWN_RATIO.
+/// (docs/alignment.md tells how its weights were learnt); 0 beyond MAX_UNKNOWN_RATIO and MAX_PRINT_RATIO. A gap below 0
+/// or beyond MAX_RIVALRY counts as that.
 double sameObjectProbability(const ObjectDifference& difference, double log_odds_gap);
 
 }  // namespace object_modelling::alignment
