@@ -65,6 +65,7 @@ CloudFusionResult fuse(const std::vector<rgbd::View>& views, const CloudFusionOp
                        base::JobControl& control)
 {
   base::checked(options);
+  rgbd::checkPlaced(views);
   control.report("fuse", 0, STAGES);
   std::vector<int> with_object;
   for (std::size_t i = 0; i < views.size(); ++i)

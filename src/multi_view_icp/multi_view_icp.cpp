@@ -27,6 +27,7 @@ MultiViewIcpResult refineByMultiViewIcp(const std::vector<rgbd::View>& views, co
                                         base::JobControl& control)
 {
   base::checked(options);
+  rgbd::checkPlaced(views);
   control.report("overlap", 0, views.size());
   IcpProblem problem(views, options, options.sessions_as_bodies ? std::vector<IcpEdge>() : overlapGraph(views, options),
                      &control);

@@ -62,7 +62,10 @@ std::string refineJointly(const std::vector<std::string>& session_ids, std::vect
   if (!refined.status.ok())
     return "sessions are placed as aligned, not refined together: " + refined.status.message;
   for (std::size_t i = 0; i < views->size(); ++i)
+  {
     (*views)[i].T_world_camera = refined.T_world_camera[i];
+    (*views)[i].covariance = refined.covariance[i];
+  }
   const std::string left_out = leftOutText(session_ids, *views, refined.left_out);
   const std::string left = refined.converged ? "" : unconvergedText(refined);
   return left_out + (left_out.empty() || left.empty() ? "" : "; ") + left;

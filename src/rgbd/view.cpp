@@ -1,5 +1,8 @@
 #include "object_modelling/rgbd/view.h"
 
+#include <string>
+
+#include "object_modelling/base/status.h"
 #include "object_modelling/rgbd/keyframe_view.h"
 
 namespace object_modelling::rgbd
@@ -11,6 +14,21 @@ View inSession(const Keyframe& keyframe, int session_index, const Eigen::Vector2
   return { keyframe.frame, keyframe.T_session_camera, keyframe.covariance, session_index, color_offset_px };
 }
 }  // namespace
+
+bool isPlaced(const View& view)
+{
+  return view.T_world_camera.matrix().allFinite() && view.color_offset_px.allFinite() && view.session_index >= 0;
+}
+
+void checkPlaced(const std::vector<View>& views)
+{
+  for (std::size_t i = 0; i < views.size(); ++i)
+    if (!isPlaced(views[i]))
+      throw base::Error(
+          base::StatusCode::INVALID_ARGUMENT,
+          "view " + std::to_string(i) +
+              " is not placed: its pose and its colour offset must be finite, its session index at least 0");
+}
 
 void transform(const Eigen::Isometry3d& T_target_world, View* view)
 {

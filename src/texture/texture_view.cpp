@@ -38,8 +38,7 @@ void checkView(const rgbd::View& view, std::size_t index)
   const rgbd::Frame& frame = view.frame;
   const cv::Size size(frame.camera.width, frame.camera.height);
   const auto fits = [&](const cv::Mat& image, int type) { return image.type() == type && image.size() == size; };
-  if (!frame.camera.violations().empty() || !view.T_world_camera.matrix().allFinite() ||
-      !view.color_offset_px.allFinite() || view.session_index < 0 || !fits(frame.color_bgr, CV_8UC3) ||
+  if (!frame.camera.violations().empty() || !rgbd::isPlaced(view) || !fits(frame.color_bgr, CV_8UC3) ||
       !(frame.depth_m.empty() || fits(frame.depth_m, CV_32FC1)) ||
       !(frame.object_mask.empty() || fits(frame.object_mask, CV_8UC1)))
     throw base::Error(base::StatusCode::BAD_INPUT,

@@ -1,10 +1,13 @@
 #include "object_modelling/fusion/cloud_fusion.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
 #include "support/handheld_trajectory.h"
 #include "support/synthetic_scene.h"
+#include "support/thrown_status.h"
 
 namespace object_modelling::fusion
 {
@@ -50,6 +53,16 @@ TEST(CloudFusion, TakesColoursByTheOffsetOfEachView)
   ASSERT_EQ(by_mean.points, truth.points);
   EXPECT_LT(colorDifference(by_own, truth), 0.5);
   EXPECT_GT(colorDifference(by_mean, truth), 5);
+}
+
+TEST(CloudFusion, RefusesAnOffsetThatIsNotANumber)
+{
+  std::vector<rgbd::View> views(2);
+  views[1].color_offset_px.x() = std::nan("");
+  base::JobControl control;
+  const base::Status status = test_support::statusOf([&] { fuse(views, {}, control); });
+  EXPECT_EQ(status.code, base::StatusCode::INVALID_ARGUMENT);
+  EXPECT_TRUE(test_support::mentions(status, "view 1")) << status.message;
 }
 
 }  // namespace object_modelling::fusion

@@ -1,6 +1,9 @@
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "object_modelling/rgbd/keyframe_view.h"
+#include "support/thrown_status.h"
 #include "support/transform_matchers.h"
 
 namespace object_modelling::rgbd
@@ -45,6 +48,28 @@ TEST(View, OfOneSessionAreInItsFrameToTheBit)
   EXPECT_EQ(views[1].covariance, keyframes[1].covariance);
   EXPECT_EQ(views[1].session_index, 0);
   EXPECT_EQ(views[1].color_offset_px, Eigen::Vector2d(1, 2));
+}
+
+TEST(View, ThatIsNotPlacedIsNamed)
+{
+  checkPlaced({});
+  const std::vector<View> good(3);
+  checkPlaced(good);
+  const auto expectNamed = [&](const View& bad)
+  {
+    EXPECT_FALSE(isPlaced(bad));
+    std::vector<View> views = good;
+    views[1] = bad;
+    const base::Status status = test_support::statusOf([&] { checkPlaced(views); });
+    EXPECT_EQ(status.code, base::StatusCode::INVALID_ARGUMENT);
+    EXPECT_TRUE(test_support::mentions(status, "view 1 is not placed")) << status.message;
+  };
+  View pose, offset, session;
+  pose.T_world_camera.translation().x() = std::nan("");
+  offset.color_offset_px.y() = INFINITY;
+  session.session_index = -1;
+  for (const View& bad : { pose, offset, session })
+    expectNamed(bad);
 }
 
 }  // namespace object_modelling::rgbd

@@ -24,7 +24,7 @@ enum class Feature
 constexpr auto FEATURE_COUNT = static_cast<std::size_t>(Feature::COUNT);
 using FeatureVector = std::array<double, FEATURE_COUNT>;
 
-/// "overlap", "nothing_new", ...
+/// "overlap", "space", ...
 const char* nameOf(Feature feature);
 
 FeatureVector featuresOf(const registration::PairQuality& quality);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Geometry>
 
 #include "object_modelling/geometry/transform.h"
@@ -21,6 +23,12 @@ struct View
   /// session, bundle_adjustment::BundleAdjustmentResult); zero where not known.
   Eigen::Vector2d color_offset_px = Eigen::Vector2d::Zero();
 };
+
+/// Whether its pose and colour offset are finite and its session has a number.
+bool isPlaced(const View& view);
+
+/// Throws base::Error (INVALID_ARGUMENT) that names the first view that is not placed.
+void checkPlaced(const std::vector<View>& views);
 
 /// Brings a view into another world, its covariance with it.
 void transform(const Eigen::Isometry3d& T_target_world, View* view);
