@@ -161,6 +161,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeNea
       countTrusted(placement.inliers) == placement.pose.inlier_count &&
       placement.pose.reprojection_rmse_px <= TRUSTED_RMSE_RATIO * options_.max_reprojection_error_px;
   placement.trusted = landmarks_fit ? landmarks_trusted : reference.trusted;
+  placement.by_landmarks = landmarks_fit && landmarks_trusted;
   return placement;
 }
 

@@ -46,6 +46,7 @@ private:
     bool wide_baseline = false;      ///< found without the frames before
     bool corrected = false;          ///< back among trusted keyframes: off where the motion led
     bool trusted = false;            ///< a good fit to trusted keyframes
+    bool by_landmarks = false;       ///< enough of them fit well, whatever the surfaces say
     std::string reason;
   };
 
@@ -76,6 +77,10 @@ private:
   Placement placeByTrusted(const View& view, const Eigen::Isometry3d& T_session_camera, StageTimes* times) const;
   Placement placeByFlow(const View& view, const registration::QuadraticTerm& prediction, StageTimes* times) const;
   Placement placeByRecognition(const View& view, StageTimes* times) const;
+  /// By dense alignment with keyframes that look alike or are near; not valid where another place looks the same.
+  Placement recogniseBySurfaces(const View& view, StageTimes* times) const;
+  /// Whether a pose is near where the camera was last: before that, the last keyframe.
+  bool isWhereLost(const Eigen::Isometry3d& T_session_camera, double depth_m) const;
   /// Surfaces of the nearest keyframe at the finest level, from a pose that is close.
   Surfaces surfacesNear(const View& view, const Eigen::Isometry3d& T_session_camera, StageTimes* times) const;
   /// From a pose near by: the map's landmarks, and least squares on them, the surfaces and the prediction (may be

@@ -20,6 +20,8 @@ constexpr double MAX_SPEED_M_PER_S = 4.0;
 constexpr double MAX_ANGULAR_SPEED_RAD_PER_S = 12.0;
 constexpr double RECOGNITION_ERROR_PX = 4.0;
 constexpr double MAX_BLIND_S = 0.2;
+// Less than to the next place that looks the same: the side of a square box.
+constexpr double WHERE_LOST_RAD = 0.6;
 // In video the next frame is like this one: what takes longer than frames take to come is not tried with each of them.
 constexpr double MIN_WIDE_STEP_S = 0.2;
 constexpr int ROBUST_EVERY = 5;
@@ -215,18 +217,10 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByF
 CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByRecognition(const View& view,
                                                                                            StageTimes* times) const
 {
+  Placement by_surfaces = recogniseBySurfaces(view, times);
+  if (by_surfaces.pose.valid)
+    return by_surfaces;
   StageTimer timer(&times->recognition_ms);
-  const std::optional<registration::DenseAlignment> by_surfaces =
-      relocaliseBySurfaces(view.dense, makeThumbnail(view.frame.gray), map_, motion_.last());
-  if (by_surfaces)
-  {
-    timer.stop();
-    Placement placement =
-        placeNear(view, surfacesNear(view, by_surfaces->T_world_camera, times), {}, ALIGNMENT_ERROR_PX, nullptr, times);
-    placement.wide_baseline = true;
-    if (placement.pose.valid)
-      return placement;
-  }
   RelocaliserOptions options;
   options.features = FeatureKind::QUICK;
   Relocalisation found = relocalise(view.frame, map_, motion_.last(), seed(), options);
@@ -242,14 +236,43 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeByR
   timer.stop();
   if (!found.keyframe)
   {
-    Placement placement;
-    placement.reason = found.reason;
-    return placement;
+    by_surfaces.reason += (by_surfaces.reason.empty() ? "" : "; ") + found.reason;
+    return by_surfaces;
   }
   Placement placement =
       placeNear(view, surfacesNear(view, found.pose.T_world_camera, times), {}, RECOGNITION_ERROR_PX, nullptr, times);
   placement.wide_baseline = true;
   return placement;
+}
+
+CameraTracker::Implementation::Placement CameraTracker::Implementation::recogniseBySurfaces(const View& view,
+                                                                                            StageTimes* times) const
+{
+  StageTimer timer(&times->recognition_ms);
+  const std::optional<RecognisedSurfaces> found =
+      relocaliseBySurfaces(view.dense, makeThumbnail(view.frame.gray), map_, motion_.last());
+  timer.stop();
+  if (!found)
+    return {};
+  Placement placement;
+  if (found->unique)
+    placement = placeNear(view, surfacesNear(view, found->aligned.T_world_camera, times), {}, ALIGNMENT_ERROR_PX,
+                          nullptr, times);
+  placement.wide_baseline = true;
+  if (found->unique && (!placement.pose.valid || placement.by_landmarks ||
+                        isWhereLost(placement.pose.T_world_camera, placement.reference->median_depth_m)))
+    return placement;
+  placement.pose.valid = false;
+  placement.reason = "looks like a known view, but nothing tells it from other places: go back to where it was lost";
+  return placement;
+}
+
+bool CameraTracker::Implementation::isWhereLost(const Eigen::Isometry3d& T_session_camera, double depth_m) const
+{
+  const Eigen::Isometry3d T_session_last = motion_.last() ? *motion_.last() : map_.keyframes().back()->T_session_camera;
+  const Eigen::Isometry3d T_last_camera = T_session_last.inverse() * T_session_camera;
+  return geometry::rotationAngle_rad(T_last_camera) <= WHERE_LOST_RAD &&
+         T_last_camera.translation().norm() <= WHERE_LOST_RAD * depth_m;
 }
 
 std::string CameraTracker::Implementation::implausible(const rgbd::Frame& frame,

@@ -187,6 +187,41 @@ TEST(PlainScene, CoveredLensIsRelocalisedBySurfaces)
   }
 }
 
+TEST(PlainScene, OtherSideOfASymmetricThingIsNotTakenForTheKnownOne)
+{
+  Sequence round;
+  round.scene = plainScene();
+  round.scene.table_half_size_m = 8;
+  round.scene.objects = { test_support::standingBox({ 0.22, 0.12, 0.15 }) };
+  round.scene.objects[0].texture = test_support::plainTexture({ 90, 120, 200 });
+  constexpr int WALK = 40;
+  for (int i = 0; i < WALK; ++i)
+    round.T_world_cameras.push_back(test_support::orbitPose(TARGET, 0.6, 0.03 * i, 0.6));
+  // The side that was never seen, opposite to where the walk began; and where it was lost.
+  round.T_world_cameras.push_back(test_support::orbitPose(TARGET, 0.6, M_PI, 0.6));
+  round.T_world_cameras.push_back(test_support::orbitPose(TARGET, 0.6, 0.03 * (WALK - 2), 0.6));
+  CameraTracker tracker;
+  for (int i = 0; i < WALK; ++i)
+    ASSERT_EQ(tracker.track(round.frame(i)).status, TrackingStatus::TRACKING) << i;
+  const TrackingScene any(1);
+  rgbd::Frame dark = covered(any, 0);
+  for (int i = 0; i < 3; ++i)
+  {
+    dark.stamp_s = round.frame(WALK).stamp_s + 0.1 * i;
+    ASSERT_EQ(tracker.track(dark).status, TrackingStatus::LOST) << i;
+  }
+  rgbd::Frame other = round.frame(WALK);
+  other.stamp_s += 1;
+  const TrackingResult refused = tracker.track(other);
+  EXPECT_EQ(refused.status, TrackingStatus::LOST);
+  EXPECT_NE(refused.reason.find("go back to where it was lost"), std::string::npos) << refused.reason;
+  rgbd::Frame back = round.frame(WALK + 1);
+  back.stamp_s += 2;
+  const TrackingResult found = tracker.track(back);
+  EXPECT_EQ(found.status, TrackingStatus::RELOCALISED) << found.reason;
+  EXPECT_TRANSFORM_NEAR(found.T_session_camera, round.truth(WALK + 1), 0.01, 0.015);
+}
+
 TEST(RobotMotion, CarriesTheTrackingWhereVelocityDoesNot)
 {
   for (const test_support::SyntheticScene& scene : { plainScene(), test_support::boxOnTable() })

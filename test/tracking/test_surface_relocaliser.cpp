@@ -42,8 +42,9 @@ public:
   {
     frame.object_mask.release();
     const registration::ImagePyramid pyramid(frame.gray);
-    return relocaliseBySurfaces(registration::DensePyramid(frame, pyramid.levels()), makeThumbnail(frame.gray), map_,
-                                T_hint);
+    const std::optional<RecognisedSurfaces> found = relocaliseBySurfaces(
+        registration::DensePyramid(frame, pyramid.levels()), makeThumbnail(frame.gray), map_, T_hint);
+    return found && found->unique ? std::make_optional(found->aligned) : std::nullopt;
   }
 
 private:
@@ -105,6 +106,19 @@ TEST(SurfaceRelocaliser, NeverPlacesAnotherScene)
                    T_world_camera);
       EXPECT_FALSE(found) << k << " seen as from " << i;
     }
+}
+
+TEST(SurfaceRelocaliser, RefusesWhatLooksTheSameFromSeveralSides)
+{
+  test_support::SyntheticScene round = plainScene();
+  round.table_half_size_m = 8;
+  round.objects = { test_support::standingCylinder(0.12, 0.18) };
+  round.objects[0].texture = test_support::plainTexture({ 80, 130, 190 });
+  const SurfaceMap map(round);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_FALSE(map.find(test_support::renderFrame(round, TrackingScene::camera(),
+                                                    map.T_world_camera(i) * slightly(0.01), sensorNoise(7 + i))))
+        << i;
 }
 
 TEST(SurfaceRelocaliser, FindsNothingWithoutAMapOrWithoutAView)
