@@ -256,6 +256,8 @@ void decide(const registration::MatchedSurface& a, const registration::MatchedSu
                                                    : whyAlmost(best.quality, rivals.same, options);
   else if (refusesAsNotTurned(best.quality, options))
     result->reason = NOT_TURNED;
+  else if (!a.model.doubt.empty() || !b.model.doubt.empty())
+    result->reason = a.model.doubt.empty() ? b.model.doubt : a.model.doubt;
   else
     result->accepted = true;
 }

@@ -11,6 +11,7 @@
 #include "object_modelling/fusion/cloud_fusion.h"
 #include "object_modelling/registration/invariant_colors.h"
 #include "object_modelling/rgbd/keyframe_view.h"
+#include "object_modelling/rgbd/pose_certainty.h"
 
 namespace object_modelling::alignment
 {
@@ -65,6 +66,33 @@ registration::ObjectFeatures featuresOf(const rgbd::Keyframe& keyframe, int max_
   return features;
 }
 
+/// What shows the object from where it is known.
+struct KnownViews
+{
+  std::vector<rgbd::View> views;
+  std::vector<int> indices;  ///< of their keyframes
+  std::string doubt;         ///< why hardly any is known; then all are there
+};
+
+KnownViews knownViewsOf(const keyframes::Session& session, const std::vector<rgbd::Keyframe>& keyframes,
+                        const std::vector<int>& masked)
+{
+  std::vector<rgbd::View> views;
+  for (const int index : masked)
+    views.push_back(
+        rgbd::viewOf(keyframes[index], Eigen::Isometry3d::Identity(), 0, session.calibration.color_offset_px));
+  const rgbd::PathCertainty path = rgbd::pathCertainty(views);
+  KnownViews known;
+  if (path.doubtful)
+    known.doubt = describe(path, views.size(), session.id);
+  for (const std::size_t i : rgbd::knownViews(path, views.size()))
+  {
+    known.views.push_back(views[i]);
+    known.indices.push_back(masked[i]);
+  }
+  return known;
+}
+
 /// Views that look from as different directions as there are: each next one is farthest from those chosen.
 std::vector<int> spreadViews(const std::vector<rgbd::Keyframe>& keyframes, const std::vector<int>& masked,
                              const Eigen::Vector3f& centre, int count)
@@ -113,14 +141,16 @@ registration::PartialModel makePartialModel(const keyframes::Session& session,
   fusion::CloudFusionOptions fusion_options;
   fusion_options.resolution_m = options.spacing_m;
   base::JobControl silent;
-  const fusion::CloudFusionResult fused =
-      fusion::fuse(rgbd::viewsOf(keyframes, session.calibration.color_offset_px), fusion_options, silent);
+  const KnownViews known = knownViewsOf(session, keyframes, masked);
+  masked = known.indices;
+  const fusion::CloudFusionResult fused = fusion::fuse(known.views, fusion_options, silent);
   control.checkCancelled();
   if (!fused.status.ok())
     throw nothing(session.id, "cannot be aligned: " + fused.status.message);
 
   registration::PartialModel model;
   model.session_id = session.id;
+  model.doubt = known.doubt;
   model.support_plane = session.support_plane_session;
   model.spacing_m =
       options.spacing_m *

@@ -181,6 +181,7 @@ base::Status Build::load()
   const base::Status loaded = loadViews(store_, placements_, control_, &views_);
   if (!loaded.ok())
     return loaded;
+  warnings_ = views_.warnings;
   base::Result<std::optional<Eigen::Isometry3d>> inherited =
       inheritedFrame(database_, model_.id, placements_, options_.replace);
   T_model_reference_ = inherited.value;

@@ -18,6 +18,7 @@ struct Views
   std::vector<keyframes::Session> sessions;
   std::vector<rgbd::View> views;            ///< of keyframes that see the object; their world is the reference frame
   std::vector<report::ViewOrigin> origins;  ///< of each of them
+  std::vector<std::string> warnings;        ///< of keyframes that are left out
   std::vector<geometry::Plane> support_planes_reference;  ///< of each session that has one
 
   std::optional<geometry::Plane> firstSupport() const;

@@ -1,9 +1,10 @@
 #include "pose_uncertainty.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/Dense>
+
+#include "object_modelling/rgbd/pose_certainty.h"
 
 namespace object_modelling::tracking
 {
@@ -14,9 +15,6 @@ constexpr double ACCELERATION_M_PER_S2 = 10;
 constexpr double ANGULAR_ACCELERATION_RAD_PER_S2 = 50;
 constexpr double SHARED_RATIO = 1.0;       // of the rays' errors
 constexpr double MIN_SHARED_RAD = 0.0003;  // of rotation; times depth, of translation
-// A direction that is known no better is not known.
-constexpr double MAX_TRANSLATION_SIGMA_RATIO = 0.02;  // of the depth
-constexpr double MAX_ROTATION_SIGMA_RAD = 0.02;
 
 geometry::Matrix6d isotropic(double translation_sigma_m, double rotation_sigma_rad)
 {
@@ -26,22 +24,11 @@ geometry::Matrix6d isotropic(double translation_sigma_m, double rotation_sigma_r
   return variances.asDiagonal();
 }
 
-/// Of a motion given in frame b, as one in frame a.
-geometry::Matrix6d moved(const geometry::Matrix6d& covariance, const Eigen::Isometry3d& T_a_b)
-{
-  const geometry::Matrix6d adjoint = geometry::adjoint(T_a_b);
-  return adjoint * covariance * adjoint.transpose();
-}
 }  // namespace
 
 geometry::Matrix6d inSessionFrame(const geometry::Matrix6d& covariance, const Eigen::Isometry3d& T_session_camera)
 {
-  return moved(covariance, T_session_camera);
-}
-
-geometry::Matrix6d inCameraFrame(const geometry::Matrix6d& covariance, const Eigen::Isometry3d& T_session_camera)
-{
-  return moved(covariance, T_session_camera.inverse());
+  return rgbd::inCameraFrame(covariance, T_session_camera.inverse());
 }
 
 geometry::Matrix6d handMotionCovariance(double elapsed_s)
@@ -67,7 +54,7 @@ registration::QuadraticTerm predictionTerm(const Eigen::Isometry3d& T_session_ca
 {
   registration::QuadraticTerm term;
   term.T_camera_world = T_session_camera.inverse();
-  term.equations.A = (inCameraFrame(covariance_before, T_session_camera) + covariance_of_motion).inverse();
+  term.equations.A = (rgbd::inCameraFrame(covariance_before, T_session_camera) + covariance_of_motion).inverse();
   return term;
 }
 
@@ -81,15 +68,10 @@ bool contradicts(const registration::PoseEstimate& pose, const registration::Qua
 
 std::string unconstrained(const geometry::Matrix6d& covariance, double depth_m)
 {
-  const auto sigma = [](const Eigen::Matrix3d& block)
-  { return std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block).eigenvalues().z())); };
-  const double translation_m = sigma(covariance.topLeftCorner<3, 3>());
-  const double rotation_rad = sigma(covariance.bottomRightCorner<3, 3>());
-  if (translation_m <= MAX_TRANSLATION_SIGMA_RATIO * depth_m && rotation_rad <= MAX_ROTATION_SIGMA_RAD)
+  const rgbd::PoseSigma sigma = rgbd::poseSigma(covariance);
+  if (sigma.isKnown(depth_m))
     return {};
-  return "the view leaves a direction free (" + std::to_string(static_cast<int>(std::lround(1e3 * translation_m))) +
-         " mm, " + std::to_string(static_cast<int>(std::lround(1e3 * rotation_rad))) +
-         " mrad unsure): show more shape or print";
+  return "the view leaves a direction free (" + sigma.text() + " unsure): show more shape or print";
 }
 
 }  // namespace object_modelling::tracking

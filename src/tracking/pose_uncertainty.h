@@ -8,9 +8,8 @@
 namespace object_modelling::tracking
 {
 /// Covariance of a motion on the left of T_camera_session (in the camera frame) as one on the left of T_session_camera
-/// (in the session frame), and back.
+/// (in the session frame). rgbd::inCameraFrame is the way back.
 geometry::Matrix6d inSessionFrame(const geometry::Matrix6d& covariance, const Eigen::Isometry3d& T_session_camera);
-geometry::Matrix6d inCameraFrame(const geometry::Matrix6d& covariance, const Eigen::Isometry3d& T_session_camera);
 
 /// What a hand may change of a camera's velocity within a time: covariance of where constant velocity puts it.
 geometry::Matrix6d handMotionCovariance(double elapsed_s);

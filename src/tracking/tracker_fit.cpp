@@ -2,6 +2,7 @@
 #include <unordered_map>
 
 #include "object_modelling/registration/dense_quality.h"
+#include "object_modelling/rgbd/pose_certainty.h"
 #include "pose_uncertainty.h"
 #include "stage_timer.h"
 #include "tracker_implementation.h"
@@ -149,9 +150,9 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::placeNea
                      placement.pose.T_world_camera);
   if (surfaces.chained)
     placement.relative_covariance += last_covariance_;
-  placement.reason =
-      unconstrained(inCameraFrame(placement.relative_covariance + reference.covariance, placement.pose.T_world_camera),
-                    reference.median_depth_m);
+  placement.reason = unconstrained(
+      rgbd::inCameraFrame(placement.relative_covariance + reference.covariance, placement.pose.T_world_camera),
+      reference.median_depth_m);
   if (!placement.reason.empty())
   {
     placement.pose.valid = false;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "object_modelling/rgbd/pose_certainty.h"
 #include "pose_uncertainty.h"
 
 namespace object_modelling::tracking
@@ -29,8 +30,8 @@ TEST(PoseUncertainty, ChangesFrameThereAndBack)
 {
   const geometry::Matrix6d covariance = someCovariance();
   const Eigen::Isometry3d T = somePose();
-  EXPECT_TRUE(inCameraFrame(inSessionFrame(covariance, T), T).isApprox(covariance, 1e-9));
-  EXPECT_TRUE(inSessionFrame(inCameraFrame(covariance, T), T).isApprox(covariance, 1e-9));
+  EXPECT_TRUE(rgbd::inCameraFrame(inSessionFrame(covariance, T), T).isApprox(covariance, 1e-9));
+  EXPECT_TRUE(inSessionFrame(rgbd::inCameraFrame(covariance, T), T).isApprox(covariance, 1e-9));
   EXPECT_FALSE(inSessionFrame(covariance, T).isApprox(covariance, 1e-2));
   EXPECT_TRUE(inSessionFrame(covariance, Eigen::Isometry3d::Identity()).isApprox(covariance, 1e-12));
 }

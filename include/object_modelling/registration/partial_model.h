@@ -43,6 +43,7 @@ struct PartialModel
   std::vector<Eigen::Vector3f> colors;
   std::vector<Eigen::Matrix<std::uint8_t, 3, 1>> colors_rgb;  ///< as recorded, for people
   double spacing_m = 0;
+  std::string doubt;  ///< why it may be of another shape than the object; empty if nothing says so
   std::optional<geometry::Plane> support_plane;
   std::vector<SpaceView> views;
   std::vector<ObjectFeatures> features;

@@ -1,0 +1,106 @@
+#include "object_modelling/rgbd/pose_certainty.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include <Eigen/Eigenvalues>
+
+#include "object_modelling/base/statistics.h"
+
+namespace object_modelling::rgbd
+{
+namespace
+{
+constexpr double MAX_TRANSLATION_RATIO = 0.02;  // of the depth
+constexpr double MAX_ROTATION_RAD = 0.02;
+constexpr double MOST_SHOWN = 1e6;  // in texts: beyond it digits say nothing
+constexpr int DEPTH_STEP_PX = 8;    // of the pixels that a view's depth is read from
+
+double greatestSigma(const Eigen::Matrix3d& block)
+{
+  if (!block.allFinite())
+    return std::numeric_limits<double>::infinity();
+  const double variance = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block).eigenvalues().z();
+  return variance < 0 ? 0 : std::sqrt(variance);
+}
+
+/// Median over the object where it is known, else over the image; 0 without depth.
+double depthOf_m(const Frame& frame)
+{
+  std::vector<float> depths_m;
+  for (int v = 0; v < frame.depth_m.rows; v += DEPTH_STEP_PX)
+    for (int u = 0; u < frame.depth_m.cols; u += DEPTH_STEP_PX)
+      if (const float depth_m = frame.depth_m.at<float>(v, u);
+          depth_m > 0 && (frame.object_mask.empty() || frame.object_mask.at<std::uint8_t>(v, u) > 0))
+        depths_m.push_back(depth_m);
+  return base::median(&depths_m);
+}
+}  // namespace
+
+bool PoseSigma::isKnown(double depth_m) const
+{
+  return translation_m <= MAX_TRANSLATION_RATIO * depth_m && rotation_rad <= MAX_ROTATION_RAD;
+}
+
+std::string PoseSigma::text() const
+{
+  const auto rounded = [](double value) { return std::to_string(std::lround(std::min(1e3 * value, MOST_SHOWN))); };
+  return rounded(translation_m) + " mm, " + rounded(rotation_rad) + " mrad";
+}
+
+PoseSigma poseSigma(const geometry::Matrix6d& covariance_camera)
+{
+  return { greatestSigma(covariance_camera.topLeftCorner<3, 3>()),
+           greatestSigma(covariance_camera.bottomRightCorner<3, 3>()) };
+}
+
+geometry::Matrix6d inCameraFrame(const geometry::Matrix6d& covariance_world, const Eigen::Isometry3d& T_world_camera)
+{
+  const geometry::Matrix6d adjoint = geometry::adjoint(T_world_camera.inverse());
+  return adjoint * covariance_world * adjoint.transpose();
+}
+
+PathCertainty pathCertainty(const std::vector<View>& views)
+{
+  PathCertainty path;
+  for (std::size_t i = 0; i < views.size(); ++i)
+  {
+    if (views[i].covariance.isZero(0))
+      continue;
+    const double depth_m = depthOf_m(views[i].frame);
+    const PoseSigma sigma = poseSigma(inCameraFrame(views[i].covariance, views[i].T_world_camera));
+    if (depth_m <= 0 || sigma.isKnown(depth_m))
+      continue;
+    path.unknown.push_back(i);
+    path.worst.translation_m = std::max(path.worst.translation_m, sigma.translation_m);
+    path.worst.rotation_rad = std::max(path.worst.rotation_rad, sigma.rotation_rad);
+  }
+  path.doubtful = 2 * path.unknown.size() > views.size();
+  return path;
+}
+
+std::string describe(const PathCertainty& path, std::size_t views, const std::string& session_id)
+{
+  if (path.allKnown())
+    return {};
+  const std::string which = std::to_string(path.unknown.size()) + " of the " + std::to_string(views) +
+                            " keyframes of session '" + session_id + "'";
+  const std::string how =
+      "it is not known where the camera was (up to " + path.worst.text() + " unsure), since the scene is plain: ";
+  if (path.doubtful)
+    return "of " + which + " " + how + "record it again with something printed under or beside the object";
+  return which + " are left out: " + how + "put something printed under or beside the object";
+}
+
+std::vector<std::size_t> knownViews(const PathCertainty& path, std::size_t views)
+{
+  std::vector<std::size_t> known;
+  for (std::size_t i = 0; i < views; ++i)
+    if (path.doubtful || !std::binary_search(path.unknown.begin(), path.unknown.end(), i))
+      known.push_back(i);
+  return known;
+}
+
+}  // namespace object_modelling::rgbd
