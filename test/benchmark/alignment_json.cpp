@@ -13,14 +13,6 @@ nlohmann::json toJson(const Counts& counts)
   };
 }
 
-nlohmann::json toJson(const Eigen::Isometry3d& T)
-{
-  nlohmann::json rows = nlohmann::json::array();
-  for (int row = 0; row < 4; ++row)
-    rows.push_back({ T(row, 0), T(row, 1), T(row, 2), T(row, 3) });
-  return rows;
-}
-
 nlohmann::json candidateJson(const alignment::PairCandidate& candidate, const CandidateErrors* errors)
 {
   const registration::PairQuality& quality = candidate.quality;
@@ -29,7 +21,7 @@ nlohmann::json candidateJson(const alignment::PairCandidate& candidate, const Ca
   for (std::size_t i = 0; i < values.size(); ++i)
     features[alignment::nameOf(static_cast<alignment::Feature>(i))] = values[i];
   nlohmann::json json = { { "kind", alignment::nameOf(candidate.kind) },
-                          { "a_from_b", toJson(candidate.T_a_b) },
+                          { "a_from_b", rowsOf(candidate.T_a_b) },
                           { "features", features },
                           { "rotation_error_deg", nullptr },
                           { "translation_error_mm", nullptr },
@@ -71,7 +63,7 @@ nlohmann::json toJson(const PairRow& pair)
   {
     json["true_overlap_ratio"] = pair.true_overlap;
     json["true_turn_rad"] = pair.true_turn_rad;
-    json["true_a_from_b"] = toJson(pair.T_a_b_true);
+    json["true_a_from_b"] = rowsOf(pair.T_a_b_true);
   }
   if (const std::optional<int> rank = pair.rankOfRight())
     json["rank_of_right"] = *rank;
@@ -90,6 +82,14 @@ nlohmann::json toJson(const PairRow& pair)
   return json;
 }
 }  // namespace
+
+nlohmann::json rowsOf(const Eigen::Isometry3d& T)
+{
+  nlohmann::json rows = nlohmann::json::array();
+  for (int row = 0; row < 4; ++row)
+    rows.push_back({ T(row, 0), T(row, 1), T(row, 2), T(row, 3) });
+  return rows;
+}
 
 nlohmann::json toJson(const std::vector<SessionRow>& sessions, const std::vector<PairRow>& pairs)
 {
@@ -113,7 +113,7 @@ nlohmann::json toJson(const std::vector<SessionRow>& sessions, const std::vector
                                  { "points", session.part.points.size() },
                                  { "spacing_m", session.part.spacing_m },
                                  { "part_s", session.part_s },
-                                 { "session_from_object", toJson(session.truth.T_session_object) },
+                                 { "session_from_object", rowsOf(session.truth.T_session_object) },
                                  { "camera_rmse_mm", session.truth.camera_rmse_mm },
                                  { "mesh_distance_mm", session.mesh_distance_mm } });
   for (const PairRow& pair : pairs)

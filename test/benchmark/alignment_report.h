@@ -69,6 +69,7 @@ std::string pairTableHeader();
 std::string toTableRow(const PairRow& pair);
 std::string summaryText(const std::vector<SessionRow>& sessions, const std::vector<PairRow>& pairs);
 
+nlohmann::json rowsOf(const Eigen::Isometry3d& T);  ///< four of four numbers
 nlohmann::json toJson(const std::vector<SessionRow>& sessions, const std::vector<PairRow>& pairs);
 
 }  // namespace object_modelling::benchmark_alignment

@@ -16,6 +16,7 @@
 #include "alignment_growth.h"
 #include "alignment_report.h"
 #include "alignment_sessions.h"
+#include "alignment_together.h"
 #include "benchmark_program.h"
 #include "object_modelling/alignment/alignment_by_points.h"
 #include "object_modelling/alignment/pair_evidence.h"
@@ -34,7 +35,8 @@ struct Arguments
   std::vector<std::string> folders;
   std::string cache, json, parts;
   bool grey = false, cross = false, growth = false;
-  int arcs = 0;  ///< parts of each session, of a run of its keyframes each; 0: one of all
+  std::size_t together = 0;  ///< sessions of an object that are aligned together, at least; 0: pair by pair
+  int arcs = 0;              ///< parts of each session, of a run of its keyframes each; 0: one of all
   std::uint64_t seed = 1;
   std::size_t max_cross = 0;  ///< 0: all
   rgbd::SensorNoiseModel noise_model;
@@ -237,6 +239,16 @@ void run(const Arguments& arguments)
     benchmark_program::writeJson(arguments.json, toJson(rows));
     return;
   }
+  if (arguments.together > 0)
+  {
+    const std::vector<ObjectRow> objects = alignTogether(sessions, arguments.together, arguments.pair);
+    std::cout << toTable(objects) << std::flush;
+    nlohmann::json json = toJson(sessions, {});
+    json["objects"] = toJson(objects);
+    json["options"] = { { "grey", arguments.grey } };
+    benchmark_program::writeJson(arguments.json, json);
+    return;
+  }
   std::cout << pairTableHeader() << std::flush;
   std::vector<PairRow> pairs;
   for (const auto& [i, k] : pairsOf(sessions, arguments))
@@ -280,6 +292,8 @@ int main(int argc, char** argv)
   app.add_option("--max-cross", arguments.max_cross, "So many pairs of different objects, chosen at random; 0: all");
   app.add_option("--seed", arguments.seed, "Of --arcs and --max-cross")->capture_default_str();
   app.add_flag("--growth", arguments.growth, "Instead: time by the number of sessions, which are of one object");
+  app.add_option("--together", arguments.together,
+                 "Instead: all sessions of each object that has at least so many, aligned together");
   app.add_option("--json", arguments.json, "Also write all figures, of all candidates, to this file");
   app.add_option("--parts", arguments.parts, "Also write what is aligned, a PLY file of points for each session")
       ->check(CLI::ExistingDirectory);
