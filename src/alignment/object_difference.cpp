@@ -92,12 +92,16 @@ Moved move(const registration::MatchedSurface& part, const registration::Matched
 }
 }  // namespace
 
-ObjectDifference differenceOf(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
-                              const Eigen::Isometry3f& T_a_b_best, const Eigen::Isometry3f& T_a_b_rival)
+PoseComparison::PoseComparison(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
+                               const Eigen::Isometry3f& T_a_b_best)
+    : a_(a), b_(b), T_a_b_best_(T_a_b_best), color_noise_(colorNoise(a, b, T_a_b_best))
 {
-  const Eigen::Isometry3f T_b_a_best = T_a_b_best.inverse(), T_b_a_rival = T_a_b_rival.inverse();
+}
+
+ObjectDifference PoseComparison::differenceOf(const Eigen::Isometry3f& T_a_b_rival) const
+{
+  const Eigen::Isometry3f T_b_a_best = T_a_b_best_.inverse(), T_b_a_rival = T_a_b_rival.inverse();
   ObjectDifference result;
-  const float noise = colorNoise(a, b, T_a_b_best);
   double count = 0, unknown = 0, met = 0, squares = 0;
   const auto add = [&](const registration::MatchedSurface& part, const Moved& forth, const Moved& back)
   {
@@ -110,10 +114,10 @@ ObjectDifference differenceOf(const registration::MatchedSurface& a, const regis
     result.stray_ratio = std::max(result.stray_ratio, std::max(forth.stray, back.stray) / std::max(1.0, all));
     result.print_ratio = std::max(result.print_ratio, (forth.print + back.print) / std::max(1.0, met_here));
   };
-  add(b, move(b, a, T_a_b_best, T_b_a_best * T_a_b_rival, noise),
-      move(b, a, T_a_b_best, T_b_a_rival * T_a_b_best, noise));
-  add(a, move(a, b, T_b_a_best, T_a_b_best * T_b_a_rival, noise),
-      move(a, b, T_b_a_best, T_a_b_rival * T_b_a_best, noise));
+  add(b_, move(b_, a_, T_a_b_best_, T_b_a_best * T_a_b_rival, color_noise_),
+      move(b_, a_, T_a_b_best_, T_b_a_rival * T_a_b_best_, color_noise_));
+  add(a_, move(a_, b_, T_b_a_best, T_a_b_best_ * T_b_a_rival, color_noise_),
+      move(a_, b_, T_b_a_best, T_a_b_rival * T_b_a_best, color_noise_));
   result.unknown_ratio = unknown / std::max(1.0, count);
   result.color_variance = squares / std::max(1.0, met);
   return result;

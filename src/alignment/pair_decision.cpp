@@ -112,24 +112,24 @@ struct Compared
   double same_object_probability = 0;
 };
 
-/// Those poses that matter beside the `leader`, against it.
+/// Those poses that matter beside the first one, against it.
 std::vector<Compared> compared(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
-                               const std::vector<PairCandidate>& candidates, std::size_t leader,
-                               const PairAlignmentOptions& options)
+                               const std::vector<PairCandidate>& candidates, const PairAlignmentOptions& options)
 {
-  const PairCandidate& lead = candidates[leader];
+  const PairCandidate& lead = candidates.front();
   const double lead_log_odds = logOdds(lead.quality, options.same_pose_probability);
-  const double least = MIN_RIVAL_SHARE * candidates.front().quality.probability;
+  const double least = MIN_RIVAL_SHARE * lead.quality.probability;
   std::vector<Compared> result;
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (i != leader && candidates[i].quality.probability >= least)
+  for (std::size_t i = 1; i < candidates.size(); ++i)
+    if (candidates[i].quality.probability >= least)
       result.push_back({ i, {}, 0 });
+  const PoseComparison comparison(a, b, lead.T_a_b.cast<float>());
 #pragma omp parallel for schedule(dynamic) num_threads(options.threads)
   for (int k = 0; k < static_cast<int>(result.size()); ++k)
   {
     Compared& other = result[k];
     const PairCandidate& rival = candidates[other.index];
-    other.difference = differenceOf(a, b, lead.T_a_b.cast<float>(), rival.T_a_b.cast<float>());
+    other.difference = comparison.differenceOf(rival.T_a_b.cast<float>());
     other.same_object_probability =
         sameObjectProbability(other.difference, lead_log_odds - logOdds(rival.quality, options.same_pose_probability));
   }
@@ -149,13 +149,13 @@ bool fitsAtAll(const registration::PairQuality& quality, const PairAlignmentOpti
 
 /// Of a pose at which nobody had turned the object over there may be one that makes the same object, at which somebody
 /// had, and which would do alone: the most probable such one then leads. A can fits its upright self best, and lying
-/// down as well as it can.
-void leadByTurned(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
-                  const PairAlignmentOptions& options, std::vector<PairCandidate>* candidates)
+/// down as well as it can. Whether there is one; `others` are then against the former first.
+bool leadByTurned(const std::vector<Compared>& others, const PairAlignmentOptions& options,
+                  std::vector<PairCandidate>* candidates)
 {
   if (!refusesAsNotTurned(candidates->front().quality, options))
-    return;
-  for (const Compared& other : compared(a, b, *candidates, 0, options))
+    return false;
+  for (const Compared& other : others)
   {
     const registration::PairQuality& quality = (*candidates)[other.index].quality;
     if (other.same_object_probability <= JOINED || saysNotTurned(quality) || !fitsAtAll(quality, options) ||
@@ -163,8 +163,9 @@ void leadByTurned(const registration::MatchedSurface& a, const registration::Mat
       continue;
     std::rotate(candidates->begin(), candidates->begin() + static_cast<std::ptrdiff_t>(other.index),
                 candidates->begin() + static_cast<std::ptrdiff_t>(other.index) + 1);
-    return;
+    return true;
   }
+  return false;
 }
 
 /// What the other poses say of the best one.
@@ -177,10 +178,8 @@ struct Rivals
 
 /// Any pose that makes the same object as the first one makes that one right too: it counts for the first one by how
 /// probably it does, and the first one, with all that it has, for each of them.
-Rivals joinEquivalent(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
-                      const PairAlignmentOptions& options, std::vector<PairCandidate>* candidates)
+Rivals joinEquivalent(const std::vector<Compared>& others, std::vector<PairCandidate>* candidates)
 {
-  const std::vector<Compared> others = compared(a, b, *candidates, 0, options);
   double& together = candidates->front().quality.probability;
   for (const Compared& other : others)
     together += other.same_object_probability * (*candidates)[other.index].quality.probability;
@@ -245,8 +244,10 @@ void decide(const registration::MatchedSurface& a, const registration::MatchedSu
     return;
   }
   const double any = weighUp(options, &result->candidates);
-  leadByTurned(a, b, options, &result->candidates);
-  const Rivals rivals = joinEquivalent(a, b, options, &result->candidates);
+  std::vector<Compared> others = compared(a, b, result->candidates, options);
+  if (leadByTurned(others, options, &result->candidates))
+    others = compared(a, b, result->candidates, options);
+  const Rivals rivals = joinEquivalent(others, &result->candidates);
   const PairCandidate& best = result->candidates.front();
   if (!fitsAtAll(best.quality, options))
     result->reason = whyUnlikely(best.quality, options);

@@ -25,7 +25,8 @@ registration::PartialModel plate(const registration::ColorAt& color)
 ObjectDifference between(const registration::PartialModel& a, const registration::PartialModel& b,
                          const Eigen::Isometry3f& best, const Eigen::Isometry3f& rival)
 {
-  return differenceOf(registration::MatchedSurface(a, 1), registration::MatchedSurface(b, 1), best, rival);
+  const registration::MatchedSurface part_a(a, 1), part_b(b, 1);
+  return PoseComparison(part_a, part_b, best).differenceOf(rival);
 }
 
 Eigen::Isometry3f turned_deg(float angle_deg)

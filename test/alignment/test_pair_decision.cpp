@@ -224,7 +224,7 @@ TEST_F(DecisionOfAPlate, CountsARivalByHowProbablyItMakesTheSameObject)
   const PairAlignment found = decidedOn({ candidate(bare()), candidate(bare(), half_), candidate(bare(), quarter_) });
   const registration::MatchedSurface a(middle_, 1), b(all_, 1);
   const auto same = [&](const Eigen::Isometry3f& rival)
-  { return sameObjectProbability(differenceOf(a, b, Eigen::Isometry3f::Identity(), rival), 0); };
+  { return sameObjectProbability(PoseComparison(a, b, Eigen::Isometry3f::Identity()).differenceOf(rival), 0); };
   EXPECT_GT(same(half_), 0.9);
   EXPECT_LT(same(quarter_), 0.5);
   const double all = 1 + 3 * oddsOf(bare());

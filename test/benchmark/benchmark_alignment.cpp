@@ -162,10 +162,12 @@ std::vector<std::optional<alignment::DifferenceFeatures>> differencesFromFirst(
   std::vector<std::optional<alignment::DifferenceFeatures>> result(candidates.size());
   const auto log_odds = [&](std::size_t i)
   { return alignment::logOdds(candidates[i].quality, options.same_pose_probability); };
+  if (candidates.empty())
+    return result;
+  const alignment::PoseComparison comparison(a, b, candidates[0].T_a_b.cast<float>());
   for (std::size_t i = 1; i < candidates.size(); ++i)
     if (const double gap = log_odds(0) - log_odds(i); gap < alignment::MAX_RIVALRY)
-      result[i] = alignment::featuresOf(
-          alignment::differenceOf(a, b, candidates[0].T_a_b.cast<float>(), candidates[i].T_a_b.cast<float>()), gap);
+      result[i] = alignment::featuresOf(comparison.differenceOf(candidates[i].T_a_b.cast<float>()), gap);
   return result;
 }
 

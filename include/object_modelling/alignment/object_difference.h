@@ -21,9 +21,22 @@ struct ObjectDifference
   double print_ratio = 0;
 };
 
-/// Over all points of both sessions, moved forward and back; of strays and of other print the larger share of the two.
-ObjectDifference differenceOf(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
-                              const Eigen::Isometry3f& T_a_b_best, const Eigen::Isometry3f& T_a_b_rival);
+/// Compares poses of a pair with its best one. The parts must outlive it. Thread safe.
+class PoseComparison
+{
+public:
+  PoseComparison(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
+                 const Eigen::Isometry3f& T_a_b_best);
+
+  /// Over all points of both sessions, moved forward and back; of strays and of other print the larger share of the
+  /// two.
+  ObjectDifference differenceOf(const Eigen::Isometry3f& T_a_b_rival) const;
+
+private:
+  const registration::MatchedSurface &a_, &b_;
+  Eigen::Isometry3f T_a_b_best_;
+  float color_noise_;  ///< what the colours of one place differ by between the sessions, at most
+};
 
 /// What speaks against two poses making the same object, each on a scale on which it adds up.
 enum class DifferenceFeature
