@@ -101,4 +101,18 @@ class Judge:
                 candidate["right"] = true.is_right(errors, report["options"]["grey"])
                 candidate.update(add_m=errors["add_m"], adds_m=errors["adds_m"])
                 candidate["right_in_kit"] = candidate["right"] or errors["add_m"] < KIT_DIAMETERS * true.diameter_m
+        for row in report.get("objects", []):
+            row["right"] = self.right_together(row, sessions, report["options"]["grey"])
         return report
+
+    def right_together(self, row, sessions, shape_only=False):
+        """The largest group of an object's placed sessions that lie right to one of them; none if that is one alone."""
+        placed = {s: np.array(pose) for s, pose in row["reference_from_session"].items()}
+        truth = {s: np.array(sessions[s]["session_from_object"]) for s in placed}
+        largest = []
+        for first in placed:
+            true = self.object(sessions[first]["mesh"])
+            group = [s for s in placed if s == first or true.is_right(true.errors(
+                np.linalg.inv(placed[first] @ truth[first]) @ placed[s] @ truth[s]), shape_only)]
+            largest = max(largest, group, key=len)
+        return largest if len(largest) > 1 else []

@@ -91,6 +91,20 @@ def outcome_table(report):
     return "\n".join(lines)
 
 
+def together_table(report):
+    """What became of all sessions of each object, aligned together."""
+    lines = ["| object | sessions | right | wrong | left out | tracked to mm | s |", "|" + "---|" * 7]
+    tracked = {s["id"]: s["camera_rmse_mm"] for s in report["sessions"]}
+    total = np.zeros(4, int)
+    for row in report["objects"]:
+        right, placed, count = len(row["right"]), len(row["reference_from_session"]), len(row["sessions"])
+        figures = (count, right, placed - right, count - placed)
+        total += figures
+        mm = ", ".join(f"{tracked[s]:.1f}" for s in row["sessions"])
+        lines.append(f"| {row['object']} | {' | '.join(map(str, figures))} | {mm} | {row['seconds']:.1f} |")
+    return "\n".join([*lines, f"| all | {' | '.join(map(str, total))} | | |"])
+
+
 def reliability_table(report):
     """How often the best pose is right, by the probability that it was given; pairs of one object, turned over."""
     pairs = [p for p in report["pairs"] if p["same_object"] and not same_pose(p) and p["candidates"]]

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from judge import TrueObject
+from judge import Judge, TrueObject
 
 
 @pytest.fixture(scope="module")
@@ -49,3 +49,19 @@ def test_a_turn_that_the_print_forbids_is_right_by_shape_alone(box):
     assert box.is_right(box.errors(quarter), shape_only=True)
     assert box.is_right(box.errors(over)), "the red side stays where it is"
     assert not box.is_right(box.errors(turned("x", 90)), shape_only=True), "the box is longer than wide"
+
+
+def test_of_sessions_placed_together_the_largest_group_that_fits_is_right(box):
+    judge = Judge()
+    judge._objects["box.ply"] = box
+    truth = {"a": np.eye(4), "b": turned("z", 30), "c": turned("x", 70, (0.1, 0, 0))}
+    sessions = {s: {"mesh": "box.ply", "session_from_object": pose.tolist()} for s, pose in truth.items()}
+
+    def right(**off):
+        placed = {s: off.get(s, np.eye(4)) @ np.linalg.inv(pose) for s, pose in truth.items()}
+        return judge.right_together({"reference_from_session": placed}, sessions)
+
+    assert right() == ["a", "b", "c"]
+    assert right(b=turned("x", 180)) == ["a", "b", "c"], "the red side stays where it is"
+    assert right(a=turned("z", 90)) == ["b", "c"], "the first one is the wrong one"
+    assert right(a=turned("z", 90), b=turned("x", 90)) == []

@@ -1,7 +1,7 @@
 """The tables tell what a session's tracking spoilt from what alignment did."""
 
 import pytest
-from report import failures_table, outcome_table, well_tracked
+from report import failures_table, outcome_table, together_table, well_tracked
 
 
 def session(name, tracked_mm):
@@ -41,3 +41,12 @@ def test_every_failure_is_named_with_its_tracking(report):
     lines = failures_table(report).splitlines()
     assert len(lines) == 3 and "good, bad | wrong | 0.3, 7.4 |" in lines[2]
     assert all(line.count("|") == lines[0].count("|") for line in lines)
+
+
+def test_sessions_aligned_together_are_counted():
+    row = {"object": "box", "sessions": ["a", "b", "c"], "reference_from_session": {"a": None, "b": None}, "seconds": 2.0,
+           "right": ["a", "b"]}
+    report = {"sessions": [session(s, 0.3) for s in "abc"], "objects": [row, dict(row, right=[])]}
+    lines = together_table(report).splitlines()
+    assert lines[2].startswith("| box | 3 | 2 | 0 | 1 | 0.3, 0.3, 0.3 |") and lines[3].startswith("| box | 3 | 0 | 2 | 1 |")
+    assert lines[4].startswith("| all | 6 | 2 | 2 | 2 |")
