@@ -15,6 +15,7 @@ namespace object_modelling::alignment
 namespace
 {
 constexpr std::size_t KEPT_CANDIDATES = 8;  // enough to tell again which poses score alike
+constexpr char SAME_OBJECT[] = "same_object_probability";
 constexpr double MAX_ROTATION_ERROR = 1e-6;
 
 const Decision DECISIONS[] = { Decision::AUTOMATIC, Decision::ACCEPTED, Decision::REFUSED };
@@ -52,6 +53,7 @@ void emit(YAML::Emitter& out, const PairCandidate& candidate)
     for (int column = 0; column < 4; ++column)
       out << base::yamlNumber(candidate.T_a_b.matrix()(row, column));
   out << YAML::EndSeq;
+  out << YAML::Key << SAME_OBJECT << YAML::Value << base::yamlNumber(candidate.same_object_probability);
   for (const registration::PairFigure& figure : registration::pairFigures())
     out << YAML::Key << figure.name << YAML::Value << base::yamlNumber(candidate.quality.*figure.value);
   out << YAML::EndMap;
@@ -69,6 +71,8 @@ PairCandidate candidateFrom(const YAML::Node& node)
   const Eigen::Matrix3d R = candidate.T_a_b.linear();
   if (!(R * R.transpose()).isIdentity(MAX_ROTATION_ERROR) || R.determinant() < 0)
     throw base::Error(base::StatusCode::BAD_INPUT, "a_from_b is no rigid motion");
+  if (node[SAME_OBJECT])
+    candidate.same_object_probability = finite(node[SAME_OBJECT]);
   for (const registration::PairFigure& figure : registration::pairFigures())
     if (figure.required || node[figure.name])
       candidate.quality.*figure.value = finite(node[figure.name]);
@@ -86,6 +90,9 @@ AlignmentEdge parsed(const keyframes::AlignmentRecord& record)
   edge.reason = node["reason"].as<std::string>();
   for (const YAML::Node& candidate : node["candidates"])
     edge.candidates.push_back(candidateFrom(candidate));
+  // Of an older record nothing tells which make the same object.
+  if (!edge.candidates.empty() && !node["candidates"][0][SAME_OBJECT])
+    edge.candidates.front().same_object_probability = 1;
   if (edge.accepted && edge.candidates.empty())
     throw base::Error(base::StatusCode::BAD_INPUT, "is accepted, but has no pose");
   return edge;

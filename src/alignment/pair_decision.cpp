@@ -177,9 +177,12 @@ struct Rivals
 };
 
 /// Any pose that makes the same object as the first one makes that one right too: it counts for the first one by how
-/// probably it does, and the first one, with all that it has, for each of them.
+/// probably it does, and the first one, with all that it has, for each of them. Sets how probably each does.
 Rivals joinEquivalent(const std::vector<Compared>& others, std::vector<PairCandidate>* candidates)
 {
+  for (PairCandidate& candidate : *candidates)
+    candidate.same_object_probability = 0;
+  candidates->front().same_object_probability = 1;
   double& together = candidates->front().quality.probability;
   for (const Compared& other : others)
     together += other.same_object_probability * (*candidates)[other.index].quality.probability;
@@ -187,6 +190,7 @@ Rivals joinEquivalent(const std::vector<Compared>& others, std::vector<PairCandi
   for (const Compared& other : others)
   {
     PairCandidate& pose = (*candidates)[other.index];
+    pose.same_object_probability = other.same_object_probability;
     double& own = pose.quality.probability;
     if (other.same_object_probability > JOINED)
       ++rivals.same;

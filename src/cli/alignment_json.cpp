@@ -18,6 +18,7 @@ nlohmann::json toJson(const alignment::PairCandidate& candidate)
   nlohmann::json json = { { "kind", alignment::nameOf(candidate.kind) }, { "T_a_b", toJson(candidate.T_a_b) } };
   for (const registration::PairFigure& figure : registration::pairFigures())
     json[figure.name] = candidate.quality.*figure.value;
+  json["same_object_probability"] = candidate.same_object_probability;
   return json;
 }
 }  // namespace

@@ -26,6 +26,8 @@ AlignmentEdge edge()
   result.accepted = true;
   result.reason = "left out: \"a\" says 3 %\nand more: - x";
   result.candidates = { candidate, PairCandidate() };
+  result.candidates[0].same_object_probability = 1.0 / 3;
+  result.candidates[1].same_object_probability = 1;
   return result;
 }
 
@@ -86,6 +88,22 @@ TEST(AlignmentRecord, ReadsOneThatLacksWhatWasAddedSince)
   }
 }
 
+TEST(AlignmentRecord, KeepsWhichCandidatesMakeTheSameObject)
+{
+  AlignmentEdge before = edge();
+  const AlignmentEdge after = edgeFrom(recordOf(before));
+  EXPECT_EQ(after.candidates[0].same_object_probability, 1.0 / 3);
+  EXPECT_EQ(after.candidates[1].same_object_probability, 1) << "it leads, though another was put first";
+  std::string older = recordOf(before).findings;
+  const std::string name = "    same_object_probability:";
+  for (std::size_t from = older.find(name); from != std::string::npos; from = older.find(name))
+    older.erase(from, older.find('\n', from) + 1 - from);
+  const AlignmentEdge unknown = edgeFrom({ "mug_1", "mug_2", older });
+  ASSERT_EQ(unknown.candidates.size(), 2u);
+  EXPECT_EQ(unknown.candidates[0].same_object_probability, 1);
+  EXPECT_EQ(unknown.candidates[1].same_object_probability, 0);
+}
+
 TEST(AlignmentRecord, KeepsARefusalWithoutPoses)
 {
   AlignmentEdge refused;
@@ -106,8 +124,9 @@ TEST(AlignmentRecord, NamesWhatIsWrong)
   for (const std::string& bad :
        { std::string(), std::string("["), std::string("decision: accepted"), replaced(good, "by_hand", "by_magic"),
          replaced(good, "decision: accepted", "decision: perhaps"), replaced(good, "probability: 0.975", "p: 1"),
-         replaced(good, "0.975", ".nan"), replaced(good, "[1, 0, 0, 0", "[1, 0, 0"),
-         replaced(good, "[1, 0, 0, 0", "[3, 0, 0, 0"), good.substr(0, good.size() / 2) })
+         replaced(good, "0.975", ".nan"), replaced(good, "same_object_probability: 1", "same_object_probability: x"),
+         replaced(good, "[1, 0, 0, 0", "[1, 0, 0"), replaced(good, "[1, 0, 0, 0", "[3, 0, 0, 0"),
+         good.substr(0, good.size() / 2) })
     EXPECT_NE(refusal(bad).find("'mug_1' and 'mug_2'"), std::string::npos) << bad;
   EXPECT_NE(refusal(replaced(good, "by_hand", "by_magic")).find("'by_magic'"), std::string::npos);
 }

@@ -212,6 +212,8 @@ TEST_F(DecisionOfAPlate, JoinsThePosesThatMakeTheSameObject)
   EXPECT_TRUE(found.accepted) << found.reason;
   const double same = sameObjectProbability({}, 0), all = 1 + 2 * oddsOf(bare());
   EXPECT_GT(same, 0.9);
+  EXPECT_EQ(found.candidates[0].same_object_probability, 1);
+  EXPECT_EQ(found.candidates[1].same_object_probability, same);
   EXPECT_NEAR(found.candidates[0].quality.probability, (1 + same) * oddsOf(bare()) / all, 1e-9);
   EXPECT_NEAR(found.candidates[1].quality.probability,
               oddsOf(bare()) / all + same * (found.candidates[0].quality.probability - oddsOf(bare()) / all), 1e-9);

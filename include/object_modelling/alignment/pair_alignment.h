@@ -42,6 +42,9 @@ struct PairCandidate
   ProposalKind kind = ProposalKind::SHAPE;
   Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();
   registration::PairQuality quality;
+  /// That it makes the same object as the pair's leading pose, which was first when the pair was judged and has 1.
+  /// Whoever puts another first leaves that as it is. 0: not known, or another object.
+  double same_object_probability = 0;
 };
 
 struct PairAlignment

@@ -27,6 +27,7 @@ object_modelling::AlignmentCandidate toMessage(const alignment::PairCandidate& c
   message.edge_strength = candidate.quality.edge_strength;
   message.features_upheld = candidate.quality.features_upheld;
   message.probability = candidate.quality.probability;
+  message.same_object_probability = candidate.same_object_probability;
   return message;
 }
 
