@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "object_modelling/geometry/transform.h"
 
@@ -13,7 +14,29 @@ constexpr double MAX_CYCLE_ROTATION_RAD = 0.09;   // 5 deg ...
 constexpr double MAX_CYCLE_TRANSLATION_M = 0.01;  // ... of the object
 constexpr double CERTAIN = 1e-6;                  // left to doubt by a person's word
 constexpr double DOUBT = 3e-3;                    // left to it at least by what was found
+constexpr double SURELY_SAME = 1 - 1e-9;          // of candidates: what is left to either alone cannot be told
 constexpr double REFUSED_RATIO = 0.9;             // of what is needed: at most, of an edge that was refused
+
+/// Undoes what joined the poses that make the same object: p_i = own_i + q_i (p_lead - own_i), and p_lead the sum of
+/// q_i own_i.
+std::vector<double> ownProbabilities(const std::vector<PairCandidate>& candidates)
+{
+  std::vector<double> own;
+  const auto lead = std::max_element(candidates.begin(), candidates.end(),
+                                     [](const PairCandidate& x, const PairCandidate& y)
+                                     { return x.same_object_probability < y.same_object_probability; });
+  double shared = 0;
+  for (auto candidate = candidates.begin(); candidate != candidates.end(); ++candidate)
+  {
+    const double together = lead->quality.probability, all = candidate->quality.probability;
+    const double same = candidate == lead ? 0 : candidate->same_object_probability;
+    own.push_back(same < SURELY_SAME ? std::clamp((all - same * together) / (1 - same), 0.0, all) : 0);
+    shared += same * own.back();
+  }
+  if (lead != candidates.end())
+    own[lead - candidates.begin()] = std::max(0.0, lead->quality.probability - shared);
+  return own;
+}
 }  // namespace
 
 bool PoseDifference::small() const
@@ -38,7 +61,13 @@ EdgeGraph::EdgeGraph(const std::vector<registration::PartialModel>& parts, doubl
     centres_.emplace_back(part.centre().cast<double>());
   }
   for (const AlignmentEdge& edge : edges)
+  {
     ends_.emplace_back(index_of.at(edge.session_a), index_of.at(edge.session_b));
+    own_.push_back(ownProbabilities(edge.candidates));
+    same_sums_.push_back(std::accumulate(edge.candidates.begin(), edge.candidates.end(), 0.0,
+                                         [](double sum, const PairCandidate& candidate)
+                                         { return sum + candidate.same_object_probability; }));
+  }
 }
 
 int EdgeGraph::otherEnd(int edge, int session) const
@@ -71,13 +100,51 @@ double EdgeGraph::probability(int edge, std::size_t candidate) const
 {
   if (edges_[edge].decision == Decision::ACCEPTED)
     return candidate == 0 ? 1 - CERTAIN : 0;
-  const double found = edges_[edge].candidates[candidate].quality.probability;
+  return capped(edge, edges_[edge].candidates[candidate].quality.probability);
+}
+
+double EdgeGraph::capped(int edge, double found) const
+{
   return std::min(found, edges_[edge].accepted ? 1 - DOUBT : refused_probability_);
+}
+
+double EdgeGraph::ownProbability(int edge, std::size_t candidate) const
+{
+  return edges_[edge].decision == Decision::ACCEPTED ? probability(edge, candidate)
+                                                     : capped(edge, own_[edge][candidate]);
+}
+
+double EdgeGraph::noneProbability(int edge) const
+{
+  if (edges_[edge].decision == Decision::ACCEPTED)
+    return doubt(edge);
+  double elsewhere = 0;
+  for (std::size_t k = 1; k < candidates(edge); ++k)
+    elsewhere += ownProbability(edge, k) * (1 - sameObjectProbability(edge, 0, k));
+  return std::max(DOUBT, doubt(edge) - elsewhere);
+}
+
+double EdgeGraph::sameObjectProbability(int edge, std::size_t one, std::size_t other) const
+{
+  const std::vector<PairCandidate>& poses = edges_[edge].candidates;
+  return one == other ? 1 : poses[one].same_object_probability * poses[other].same_object_probability;
+}
+
+double EdgeGraph::chance(int edge, std::size_t /*candidate*/) const
+{
+  if (edges_[edge].decision == Decision::ACCEPTED)
+    return CHANCE;
+  return std::min(1.0, CHANCE * std::max(1.0, same_sums_[edge]));
 }
 
 double EdgeGraph::support(int edge, const std::optional<std::size_t>& agreeing) const
 {
-  return agreeing ? probability(edge, *agreeing) / CHANCE : doubt(edge);
+  return agreeing ? probability(edge, *agreeing) / chance(edge, *agreeing) : doubt(edge);
+}
+
+double EdgeGraph::ownSupport(int edge, const std::optional<std::size_t>& agreeing) const
+{
+  return agreeing ? ownProbability(edge, *agreeing) / chance(edge, *agreeing) : doubt(edge);
 }
 
 Eigen::Isometry3d EdgeGraph::along(int edge, std::size_t candidate, int to,
@@ -98,10 +165,10 @@ std::optional<std::size_t> EdgeGraph::agreeing(int edge, int to, const Eigen::Is
 {
   std::optional<std::size_t> best;
   for (std::size_t k = 0; k < candidates(edge); ++k)
-    if ((!best || probability(edge, k) > probability(edge, *best)) &&
+    if ((!best || support(edge, k) > support(edge, best)) &&
         between(along(edge, k, to, from.T_reference_session), T_reference_to, to).small())
       best = k;
-  return best && probability(edge, *best) / CHANCE > doubt(edge) ? best : std::nullopt;
+  return best && support(edge, best) > doubt(edge) ? best : std::nullopt;
 }
 
 std::optional<std::size_t> EdgeGraph::agreeing(int edge, const Placement& placed) const

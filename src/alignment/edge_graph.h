@@ -10,7 +10,7 @@
 
 namespace object_modelling::alignment
 {
-constexpr double CHANCE = 0.05;  ///< that poses of two edges agree though they are wrong
+constexpr double CHANCE = 0.05;  ///< that a pose of an edge is another one's though both are wrong
 
 /// By how much two poses of one part differ.
 struct PoseDifference
@@ -54,13 +54,24 @@ public:
   /// A person's word leaves hardly a doubt.
   double probability(int edge, std::size_t candidate) const;
   double doubt(int edge) const { return 1 - probability(edge, 0); }
+  /// Of a candidate's probability what it has by itself, without those that make the same object.
+  double ownProbability(int edge, std::size_t candidate) const;
+  /// That none of an edge's candidates is right.
+  double noneProbability(int edge) const;
+  /// That two candidates of an edge make the same object, by way of the leading one.
+  double sameObjectProbability(int edge, std::size_t one, std::size_t other) const;
+  /// How probable it is that an edge agrees with a wrong pose by this candidate or another: the more of them make one
+  /// object, the less it tells.
+  double chance(int edge, std::size_t candidate) const;
   /// What an edge makes of a pose, against chance.
   double support(int edge, const std::optional<std::size_t>& agreeing) const;
+  /// The same without the candidates that make the same object.
+  double ownSupport(int edge, const std::optional<std::size_t>& agreeing) const;
 
   /// Pose of session `to` by an edge, from that of the session at its other end.
   Eigen::Isometry3d along(int edge, std::size_t candidate, int to, const Eigen::Isometry3d& T_reference_from) const;
   PoseDifference between(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other, int session) const;
-  /// The edge's most probable pose that is the one given of session `to`; none if there is none.
+  /// The edge's pose with most support that is the one given of session `to`; none if there is none.
   std::optional<std::size_t> agreeing(int edge, int to, const Eigen::Isometry3d& T_reference_to,
                                       const Pose& from) const;
   std::optional<std::size_t> agreeing(int edge, const Placement& placed) const;
@@ -68,10 +79,14 @@ public:
   PoseDifference contradiction(int edge, const Placement& placed) const;
 
 private:
+  double capped(int edge, double found) const;
+
   const std::vector<AlignmentEdge>& edges_;
   double refused_probability_;
   std::vector<Eigen::Vector3d> centres_;
   std::vector<std::pair<int, int>> ends_;
+  std::vector<std::vector<double>> own_;  ///< by edge and candidate
+  std::vector<double> same_sums_;         ///< by edge, over its candidates
 };
 
 }  // namespace object_modelling::alignment

@@ -17,8 +17,9 @@ constexpr std::size_t TRIED_STARTS = 3;  // poses of each edge that a placement 
 struct Hypothesis
 {
   Pose pose;
-  std::vector<double> support;  ///< per edge
+  std::vector<std::optional<std::size_t>> agreeing;  ///< per edge
   double odds = 0;
+  double own_odds = 0;  ///< without the poses that make the same object
 };
 
 std::vector<Hypothesis> hypothesesOf(const EdgeGraph& graph, int session, const std::vector<int>& edges,
@@ -42,15 +43,19 @@ std::vector<Hypothesis> hypothesesOf(const EdgeGraph& graph, int session, const 
   for (Hypothesis& hypothesis : result)
   {
     // Of the edges that agree, one brings the session here; the others might have agreed by chance.
-    hypothesis.odds = CHANCE;
+    hypothesis.odds = hypothesis.own_odds = 1;
+    double bringing = 1;
     for (const int edge : edges)
     {
       const Pose& from = placed.at(graph.otherEnd(edge, session));
-      const std::optional<std::size_t> agreeing =
-          graph.agreeing(edge, session, hypothesis.pose.T_reference_session, from);
-      hypothesis.support.push_back(graph.support(edge, agreeing));
-      hypothesis.odds *= hypothesis.support.back();
+      hypothesis.agreeing.push_back(graph.agreeing(edge, session, hypothesis.pose.T_reference_session, from));
+      hypothesis.odds *= graph.support(edge, hypothesis.agreeing.back());
+      hypothesis.own_odds *= graph.ownSupport(edge, hypothesis.agreeing.back());
+      if (hypothesis.agreeing.back())
+        bringing = std::min(bringing, graph.chance(edge, *hypothesis.agreeing.back()));
     }
+    hypothesis.odds *= bringing;
+    hypothesis.own_odds *= bringing;
   }
   return result;
 }
@@ -61,22 +66,41 @@ struct Choice
   double probability = 0;  ///< by all edges to the placed sessions, against other poses and against none
 };
 
-/// The most probable pose of a session. Poses that every edge holds for as good make the same object.
-Choice bestPose(const EdgeGraph& graph, int session, const Placement& placed)
+/// Probability that two poses make the same object: by the edges that hold both, the one that doubts it most.
+double sameObjectProbability(const EdgeGraph& graph, const std::vector<int>& edges, const Hypothesis& one,
+                             const Hypothesis& other)
+{
+  std::optional<double> least;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if (one.agreeing[i] && other.agreeing[i])
+    {
+      const double same = graph.sameObjectProbability(edges[i], *one.agreeing[i], *other.agreeing[i]);
+      least = std::min(least.value_or(1), same);
+    }
+  return least.value_or(0);
+}
+
+/// The most probable pose of a session, of those that are `where` it is if that is given. Another pose is a rival by
+/// how probably it makes another object; those that make the same one are in the odds already.
+Choice bestPose(const EdgeGraph& graph, int session, const Placement& placed,
+                const std::optional<Eigen::Isometry3d>& where = std::nullopt)
 {
   const std::vector<int> edges = graph.edgesTo(session, placed);
   const std::vector<Hypothesis> hypotheses = hypothesesOf(graph, session, edges, placed);
-  if (hypotheses.empty())
+  const Hypothesis* best = nullptr;
+  for (const Hypothesis& hypothesis : hypotheses)
+    if ((!best || hypothesis.odds > best->odds) &&
+        (!where || graph.between(hypothesis.pose.T_reference_session, *where, session).small()))
+      best = &hypothesis;
+  if (!best)
     return {};
-  const Hypothesis& best = *std::max_element(hypotheses.begin(), hypotheses.end(),
-                                             [](const Hypothesis& x, const Hypothesis& y) { return x.odds < y.odds; });
-  double sum = best.odds, none = 1;
+  double sum = best->odds, none = 1;
   for (const Hypothesis& other : hypotheses)
-    if (other.support != best.support)
-      sum += other.odds;
+    if (&other != best)
+      sum += (1 - sameObjectProbability(graph, edges, *best, other)) * other.own_odds;
   for (const int edge : edges)
-    none *= graph.doubt(edge);
-  return { best.pose, best.odds / (sum + none) };
+    none *= graph.noneProbability(edge);
+  return { best->pose, best->odds / (sum + none) };
 }
 
 /// Places one session after the other, the most probable first.
@@ -106,7 +130,10 @@ void complete(const EdgeGraph& graph, double min_probability, Placement* placed)
 /// Logarithm of the odds of a placement, up to what all placements share.
 double logOddsOf(const EdgeGraph& graph, const Placement& placed)
 {
-  double sum = (static_cast<double>(placed.size()) - 1) * std::log(CHANCE);
+  const std::vector<int> tree = treeOf(graph, placed);
+  double sum = (static_cast<double>(placed.size() - tree.size()) - 1) * std::log(CHANCE);
+  for (const int edge : tree)
+    sum += std::log(graph.chance(edge, *graph.agreeing(edge, placed)));
   for (int edge = 0; edge < graph.edges(); ++edge)
   {
     if (!graph.usable(edge))
@@ -120,14 +147,18 @@ double logOddsOf(const EdgeGraph& graph, const Placement& placed)
 double jointProbability(const EdgeGraph& graph, const std::vector<int>& sessions, const Placement& placed)
 {
   const auto within = [&](int session) { return std::count(sessions.begin(), sessions.end(), session) > 0; };
-  double odds = CHANCE, none = 1;
+  double odds = 1, none = 1, bringing = 1;
   for (int edge = 0; edge < graph.edges(); ++edge)
     if (graph.usable(edge) && graph.holds(edge, placed) &&
         within(graph.ends(edge).first) != within(graph.ends(edge).second))
     {
-      odds *= graph.support(edge, graph.agreeing(edge, placed));
+      const std::optional<std::size_t> agreeing = graph.agreeing(edge, placed);
+      odds *= graph.support(edge, agreeing);
       none *= graph.doubt(edge);
+      if (agreeing)
+        bringing = std::min(bringing, graph.chance(edge, *agreeing));
     }
+  odds *= bringing;
   return odds / (odds + none);
 }
 
@@ -141,12 +172,11 @@ std::vector<int> leastProbable(const EdgeGraph& graph, double min_probability, c
   {
     Placement others = placed;
     others.erase(session);
-    const Choice choice = bestPose(graph, session, others);
-    const bool stays = graph.between(choice.pose.T_reference_session, pose.T_reference_session, session).small();
-    if ((stays ? choice.probability : 0) < least_probability)
+    const double probability = bestPose(graph, session, others, pose.T_reference_session).probability;
+    if (probability < least_probability)
     {
       least = { session };
-      least_probability = stays ? choice.probability : 0;
+      least_probability = probability;
     }
   }
   const std::vector<int> tree = treeOf(graph, placed);
