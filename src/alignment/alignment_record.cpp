@@ -20,7 +20,7 @@ constexpr double MAX_ROTATION_ERROR = 1e-6;
 
 const Decision DECISIONS[] = { Decision::AUTOMATIC, Decision::ACCEPTED, Decision::REFUSED };
 const ProposalKind KINDS[] = { ProposalKind::FEATURES, ProposalKind::STABLE_PLANE, ProposalKind::SHAPE,
-                               ProposalKind::BY_HAND };
+                               ProposalKind::BY_HAND, ProposalKind::CYCLE };
 
 std::string pairText(const keyframes::AlignmentRecord& record)
 {

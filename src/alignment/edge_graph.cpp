@@ -130,10 +130,13 @@ double EdgeGraph::sameObjectProbability(int edge, std::size_t one, std::size_t o
   return one == other ? 1 : poses[one].same_object_probability * poses[other].same_object_probability;
 }
 
-double EdgeGraph::chance(int edge, std::size_t /*candidate*/) const
+double EdgeGraph::chance(int edge, std::size_t candidate) const
 {
+  const PairCandidate& pose = edges_[edge].candidates[candidate];
   if (edges_[edge].decision == Decision::ACCEPTED)
     return CHANCE;
+  if (pose.kind == ProposalKind::CYCLE)
+    return 1;
   return std::min(1.0, CHANCE * std::max(1.0, same_sums_[edge]));
 }
 

@@ -46,7 +46,8 @@ public:
   int otherEnd(int edge, int session) const;
   /// Whether an edge has poses that no person refused.
   bool usable(int edge) const { return edges_[edge].best() && edges_[edge].decision != Decision::REFUSED; }
-  bool holds(int edge, const Placement& placed) const;  ///< both ends are placed
+  bool decided(int edge) const { return edges_[edge].decision != Decision::AUTOMATIC; }  ///< by a person
+  bool holds(int edge, const Placement& placed) const;                                   ///< both ends are placed
   /// Usable edges between a session and those placed.
   std::vector<int> edgesTo(int session, const Placement& placed) const;
 
@@ -61,7 +62,8 @@ public:
   /// That two candidates of an edge make the same object, by way of the leading one.
   double sameObjectProbability(int edge, std::size_t one, std::size_t other) const;
   /// How probable it is that an edge agrees with a wrong pose by this candidate or another: the more of them make one
-  /// object, the less it tells.
+  /// object, the less it tells. A pose that other edges imply is there whether it is right or not, so that
+  /// only what its own surfaces say counts.
   double chance(int edge, std::size_t candidate) const;
   /// What an edge makes of a pose, against chance.
   double support(int edge, const std::optional<std::size_t>& agreeing) const;

@@ -136,6 +136,8 @@ std::string nameOf(ProposalKind kind)
       return "stable_plane";
     case ProposalKind::BY_HAND:
       return "by_hand";
+    case ProposalKind::CYCLE:
+      return "cycle";
     case ProposalKind::SHAPE:
       break;
   }
@@ -182,6 +184,35 @@ PairAlignment alignParts(const registration::MatchedSurface& a, const registrati
   candidates = distinctBest(candidates, b, SAME_ROTATION_RAD, SAME_POSITION_RATIO,
                             { refined, MOST_REFINED_FACTOR * refined, REFINED_MARGIN });
   return decided(pair, options, std::move(candidates), control);
+}
+
+PairAlignment alsoAt(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
+                     const std::vector<PairCandidate>& known, const std::vector<Eigen::Isometry3d>& implied,
+                     const PairAlignmentOptions& options, base::JobControl& control)
+{
+  PairAlignment result;
+  result.candidates = known;
+  control.checkCancelled();
+  if (a.fine_samples.empty() || b.fine_samples.empty())
+    return result;
+  std::vector<Candidate> added;
+  for (const Eigen::Isometry3d& T_a_b : implied)
+    added.push_back({ { ProposalKind::CYCLE, T_a_b.cast<float>() }, 0, {} });
+  refine(registration::PartPair(a, b, options.threads), true, options, &added);
+  for (const Candidate& candidate : added)
+  {
+    const Eigen::Isometry3f& T_a_b = candidate.proposal.T_a_b;
+    if (std::none_of(result.candidates.begin(), result.candidates.end(),
+                     [&](const PairCandidate& other)
+                     { return same(other.T_a_b.cast<float>(), T_a_b, b, SAME_ROTATION_RAD, SAME_POSITION_RATIO); }))
+      result.candidates.push_back({ candidate.proposal.kind, T_a_b.cast<double>(), candidate.quality });
+  }
+  const auto log_odds = [&](const PairCandidate& candidate)
+  { return logOdds(candidate.quality, options.same_pose_probability); };
+  std::stable_sort(result.candidates.begin(), result.candidates.end(),
+                   [&](const PairCandidate& x, const PairCandidate& y) { return log_odds(x) > log_odds(y); });
+  decide(a, b, options, &result);
+  return result;
 }
 
 std::optional<PairAlignment> confirmParts(const registration::MatchedSurface& a, const registration::MatchedSurface& b,

@@ -168,6 +168,35 @@ bool leadByTurned(const std::vector<Compared>& others, const PairAlignmentOption
   return false;
 }
 
+/// A pose that other pairs imply was not found by this pair's search. Where it makes the same object as one that was,
+/// it is no further evidence for it, and counts once with it only: else every such pose would make the pair more sure.
+/// Returns the share that is taken off.
+double countImpliedOnce(const std::vector<Compared>& others, std::vector<PairCandidate>* candidates)
+{
+  double off = 0;
+  const auto take = [&](PairCandidate& candidate, double share)
+  {
+    share = std::min(share, candidate.quality.probability);
+    candidate.quality.probability -= share;
+    off += share;
+  };
+  double found = 0;
+  for (const Compared& other : others)
+  {
+    PairCandidate& pose = (*candidates)[other.index];
+    const double same = other.same_object_probability * pose.quality.probability;
+    if (pose.kind == ProposalKind::CYCLE)
+      take(pose, same);
+    else
+      found += same;
+  }
+  if (candidates->front().kind == ProposalKind::CYCLE)
+    take(candidates->front(), found);
+  for (PairCandidate& candidate : *candidates)
+    candidate.quality.probability /= 1 - off;
+  return off;
+}
+
 /// What the other poses say of the best one.
 struct Rivals
 {
@@ -247,10 +276,12 @@ void decide(const registration::MatchedSurface& a, const registration::MatchedSu
                      " of the surfaces together with the object on what it stood on" + REMEDY;
     return;
   }
-  const double any = weighUp(options, &result->candidates);
+  double any = weighUp(options, &result->candidates);
   std::vector<Compared> others = compared(a, b, result->candidates, options);
   if (leadByTurned(others, options, &result->candidates))
     others = compared(a, b, result->candidates, options);
+  const double twice = countImpliedOnce(others, &result->candidates);
+  any = (any - twice) / (1 - twice);
   const Rivals rivals = joinEquivalent(others, &result->candidates);
   const PairCandidate& best = result->candidates.front();
   if (!fitsAtAll(best.quality, options))

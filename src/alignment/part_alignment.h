@@ -18,4 +18,10 @@ std::optional<PairAlignment> confirmParts(const registration::MatchedSurface& a,
                                           const std::vector<PairCandidate>& known, const PairAlignmentOptions& options,
                                           base::JobControl& control);
 
+/// A pair that was searched, judged again with poses that other pairs imply, each moved into place. One where the pair
+/// has a pose already adds none.
+PairAlignment alsoAt(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
+                     const std::vector<PairCandidate>& known, const std::vector<Eigen::Isometry3d>& implied,
+                     const PairAlignmentOptions& options, base::JobControl& control);
+
 }  // namespace object_modelling::alignment

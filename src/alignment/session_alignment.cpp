@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "cycle_poses.h"
 #include "object_modelling/base/options.h"
 #include "object_modelling/base/status.h"
 #include "part_alignment.h"
@@ -83,6 +84,14 @@ private:
   int threads_;
   std::vector<std::unique_ptr<registration::MatchedSurface>> prepared_;
 };
+
+void take(const PairAlignment& pair, AlignmentEdge* edge)
+{
+  edge->accepted = pair.accepted;
+  edge->reason = pair.reason;
+  edge->candidates = pair.candidates;
+}
+
 /// The pair in the order in which it is known, from there if that still holds.
 AlignmentEdge found(const AlignmentEdge* known, Parts& parts, const std::vector<std::string>& ids, std::size_t i,
                     std::size_t j, const PairAlignmentOptions& options, base::JobControl& control)
@@ -97,10 +106,27 @@ AlignmentEdge found(const AlignmentEdge* known, Parts& parts, const std::vector<
   AlignmentEdge edge;
   edge.session_a = ids[i];
   edge.session_b = ids[j];
-  edge.accepted = pair->accepted;
-  edge.reason = pair->reason;
-  edge.candidates = pair->candidates;
+  take(*pair, &edge);
   return edge;
+}
+
+/// Where a session would be left out, lets each pair judge the poses that others imply for it: of a symmetric object
+/// each pair may have found another of many right poses.
+void closeCycles(const std::vector<registration::PartialModel>& parts, const PairAlignmentOptions& options,
+                 Parts& prepared, base::JobControl& control, std::vector<AlignmentEdge>* edges)
+{
+  std::vector<AlignmentEdge> tried = *edges;
+  if (parts.size() < 3 || placeByEdges(parts, options.min_probability, &tried).size() == parts.size())
+    return;
+  const EdgeGraph graph(parts, options.min_probability, *edges);
+  const std::vector<std::vector<Eigen::Isometry3d>> implied = cyclePoses(graph);
+  for (int i = 0; i < graph.edges(); ++i)
+    if (!implied[i].empty())
+    {
+      const auto& [a, b] = graph.ends(i);
+      AlignmentEdge& edge = (*edges)[i];
+      take(alsoAt(prepared.at(a), prepared.at(b), edge.candidates, implied[i], options, control), &edge);
+    }
 }
 }  // namespace
 
@@ -167,6 +193,7 @@ AlignmentResult alignSessions(const std::vector<registration::PartialModel>& par
       control.report("align", edges.size(), pairs);
     }
   control.report("align", pairs, pairs);
+  closeCycles(parts, options, prepared, control, &edges);
   return placeSessions(parts, options.min_probability, std::move(edges));
 }
 

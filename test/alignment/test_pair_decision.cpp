@@ -219,6 +219,23 @@ TEST_F(DecisionOfAPlate, JoinsThePosesThatMakeTheSameObject)
               oddsOf(bare()) / all + same * (found.candidates[0].quality.probability - oddsOf(bare()) / all), 1e-9);
 }
 
+TEST_F(DecisionOfAPlate, AnImpliedPoseCountsOnceWithThoseThatWereFound)
+{
+  PairCandidate implied = candidate(bare(), half_);
+  implied.kind = ProposalKind::CYCLE;
+  const double same = sameObjectProbability({}, 0), odds = oddsOf(bare()), left = (1 - same) * odds;
+  const double alone = odds / (1 + odds), together = (odds + same * left) / (1 + odds + left);
+  PairAlignment found = decidedOn({ candidate(bare()), implied });
+  EXPECT_NEAR(found.candidates[0].quality.probability, together, 1e-9);
+  EXPECT_NEAR(found.candidates[0].quality.probability, alone, 0.02) << "it makes the pair no more sure";
+  EXPECT_GT(found.candidates[1].quality.probability, same * together) << "and is as good";
+  found = decidedOn({ implied, candidate(bare()) });
+  EXPECT_NEAR(found.candidates[0].quality.probability, alone, 0.02) << "whichever of them is first";
+  implied = candidate(good(), quarter_);
+  implied.kind = ProposalKind::CYCLE;
+  expectReason(decidedOn({ candidate(good()), implied }), "two poses 90 deg apart score alike");
+}
+
 TEST_F(DecisionOfAPlate, CountsARivalByHowProbablyItMakesTheSameObject)
 {
   // Views that look through what a quarter turn puts beside the plate.

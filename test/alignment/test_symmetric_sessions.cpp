@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "edge_graph.h"
+#include "cycle_poses.h"
 #include "session_scene.h"
 #include "support/transform_matchers.h"
 
@@ -22,7 +22,7 @@ Eigen::Isometry3d aboutZ(double angle_rad)
 class SymmetricSessions : public SessionsOfAnObject
 {
 protected:
-  SymmetricSessions() : SessionsOfAnObject(4) {}
+  SymmetricSessions() : SessionsOfAnObject(12) {}
 
   /// Poses that probably make the same object, the first one turned by `turn_rad`, as decide() gives them.
   AlignmentEdge fourfold(int a, int b, double turn_rad, double same = 0.9,
@@ -107,6 +107,52 @@ TEST_F(SymmetricSessions, AWrongPairIsFoundOut)
   }
 }
 
+/// Three sessions of a can, of which each pair found one turn, and a to c what the others imply too.
+class SessionsOfACan : public SymmetricSessions
+{
+protected:
+  AlignmentResult placed(double implied_probability, double same)
+  {
+    std::vector<AlignmentEdge> edges = { edge(0, 1, 0.93, aboutZ(0.4)), edge(1, 2, 0.93, aboutZ(0.9)),
+                                         edge(0, 2, 0.93, aboutZ(2)) };
+    for (AlignmentEdge& found : edges)
+      found.candidates[0].same_object_probability = 1;
+    PairCandidate implied = edge(0, 2, implied_probability, aboutZ(1.3)).candidates[0];
+    implied.kind = ProposalKind::CYCLE;
+    implied.same_object_probability = same;
+    edges[2].candidates.push_back(implied);
+    return place(3, edges);
+  }
+};
+
+TEST_F(SessionsOfACan, ArePlacedByAnImpliedPoseThatTheSurfacesBearOut)
+{
+  const AlignmentResult result = placed(0.9 * 0.93, 0.9);
+  EXPECT_EQ(result.placements.size(), 3u) << result.status.message;
+  expectTruthButForTurns(result, 1e-9);
+}
+
+TEST_F(SessionsOfACan, AreNotPlacedByAnImpliedPoseThatTheSurfacesContradict)
+{
+  for (const double probability : { 0.06, 0.01, 0.0 })
+  {
+    const AlignmentResult result = placed(probability, 0);
+    EXPECT_EQ(result.placements.size(), 2u) << probability << ": one of the three is wrong, and nothing tells which";
+  }
+}
+
+TEST_F(SymmetricSessions, AnImpliedPoseBearsOutByItsOwnEvidenceOnly)
+{
+  // That two that were found agree would be chance; that an implied one agrees is not.
+  std::vector<AlignmentEdge> edges = { edge(0, 1, 0.95), edge(0, 2, 0.6), edge(1, 2, 0.6) };
+  EXPECT_EQ(place(3, edges).placements.size(), 3u);
+  edges[2].candidates[0].kind = ProposalKind::CYCLE;
+  EXPECT_EQ(place(3, edges).placements.size(), 2u);
+  const EdgeGraph graph(parts_, 0.85, edges);
+  EXPECT_DOUBLE_EQ(graph.support(1, 0), 0.6 / CHANCE);
+  EXPECT_DOUBLE_EQ(graph.support(2, 0), 0.6);
+}
+
 TEST_F(SymmetricSessions, TellsWhatAPoseHasByItself)
 {
   const std::vector<AlignmentEdge> edges = { fourfold(0, 1, 0, 0.8), edge(1, 2, 0.9) };
@@ -119,6 +165,41 @@ TEST_F(SymmetricSessions, TellsWhatAPoseHasByItself)
   EXPECT_DOUBLE_EQ(graph.sameObjectProbability(0, 1, 2), 0.8 * 0.8);
   EXPECT_DOUBLE_EQ(graph.ownProbability(1, 0), 0.9);
   EXPECT_NEAR(graph.noneProbability(1), 0.1, 1e-12);
+}
+
+TEST_F(SymmetricSessions, TwoPairsImplyThePoseOfTheThird)
+{
+  // Either order of the sessions of a pair.
+  std::vector<AlignmentEdge> edges = { edge(0, 1, 0.9, aboutZ(0.4)), edge(2, 1, 0.9), edge(0, 2, 0.9, aboutZ(2)) };
+  const auto implied = [&] { return cyclePoses(EdgeGraph(parts_, 0.85, edges)); };
+  ASSERT_EQ(implied()[2].size(), 1u);
+  EXPECT_TRANSFORM_NEAR(implied()[2][0], edge(0, 2, 1, aboutZ(0.4)).candidates[0].T_a_b, 1e-9, 1e-9);
+  EXPECT_EQ(implied()[0].size(), 1u);
+  EXPECT_EQ(implied()[1].size(), 1u);
+  edges[2].decision = Decision::ACCEPTED;
+  EXPECT_TRUE(implied()[2].empty()) << "a person decided";
+  EXPECT_EQ(implied()[0].size(), 1u);
+  edges[2].decision = Decision::REFUSED;
+  EXPECT_TRUE(implied()[0].empty()) << "the two are not to be joined";
+  edges[2] = edge(0, 2, 0.9, aboutZ(0.42));
+  EXPECT_TRUE(implied()[2].empty()) << "it has that pose";
+  edges[2] = edge(0, 2, 0.9, aboutZ(2));
+  edges[1].candidates[0].quality.probability = 0.2;
+  EXPECT_TRUE(implied()[2].empty()) << "it is improbable";
+}
+
+TEST_F(SymmetricSessions, TheMostProbableImpliedPosesAreTaken)
+{
+  std::vector<AlignmentEdge> edges = { edge(0, 1, 0.9, aboutZ(3)) };
+  for (int i = 2; i < 12; ++i)
+  {
+    edges.push_back(edge(0, i, 0.7 + 0.01 * i, aboutZ(0.2 * i)));
+    edges.push_back(edge(i, 1, 0.9));
+  }
+  const std::vector<Eigen::Isometry3d> poses = cyclePoses(EdgeGraph(parts_, 0.85, edges))[0];
+  ASSERT_EQ(poses.size(), 8u);
+  for (int k = 0; k < 8; ++k)
+    EXPECT_TRANSFORM_NEAR(poses[k], edge(0, 1, 1, aboutZ(0.2 * (11 - k))).candidates[0].T_a_b, 1e-9, 1e-9);
 }
 
 }  // namespace

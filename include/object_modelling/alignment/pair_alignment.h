@@ -31,10 +31,11 @@ enum class ProposalKind
   FEATURES,
   STABLE_PLANE,
   SHAPE,
-  BY_HAND  ///< a person showed points
+  BY_HAND,  ///< a person showed points
+  CYCLE     ///< the best poses of two other pairs imply it
 };
 
-/// "features", "stable_plane", "shape" or "by_hand".
+/// "features", "stable_plane", "shape", "by_hand" or "cycle".
 std::string nameOf(ProposalKind kind);
 
 struct PairCandidate
