@@ -5,14 +5,19 @@
 
 namespace object_modelling::alignment
 {
-std::vector<int> treeOf(const EdgeGraph& graph, const Placement& placed)
+namespace
+{
+/// Of the edges that agree, those with the largest values.
+template <typename Value>
+std::vector<int> spanningTree(const EdgeGraph& graph, const Placement& placed, const Value& value)
 {
   std::vector<int> order, tree;
   for (int edge = 0; edge < graph.edges(); ++edge)
     if (graph.usable(edge) && graph.holds(edge, placed) && graph.agreeing(edge, placed))
       order.push_back(edge);
-  const auto probability = [&](int edge) { return graph.probability(edge, *graph.agreeing(edge, placed)); };
-  std::stable_sort(order.begin(), order.end(), [&](int x, int y) { return probability(x) > probability(y); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int x, int y)
+                   { return value(x, *graph.agreeing(x, placed)) > value(y, *graph.agreeing(y, placed)); });
   std::map<int, int> component;
   for (const auto& [session, pose] : placed)
     component[session] = session;
@@ -27,6 +32,17 @@ std::vector<int> treeOf(const EdgeGraph& graph, const Placement& placed)
         of = to;
   }
   return tree;
+}
+}  // namespace
+
+std::vector<int> treeOf(const EdgeGraph& graph, const Placement& placed)
+{
+  return spanningTree(graph, placed, [&](int edge, std::size_t agreeing) { return graph.probability(edge, agreeing); });
+}
+
+std::vector<int> rarestTreeOf(const EdgeGraph& graph, const Placement& placed)
+{
+  return spanningTree(graph, placed, [&](int edge, std::size_t agreeing) { return -graph.chance(edge, agreeing); });
 }
 
 std::vector<int> cutOff(const EdgeGraph& graph, const std::vector<int>& tree, int cut, const Placement& placed)

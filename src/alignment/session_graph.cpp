@@ -130,7 +130,7 @@ void complete(const EdgeGraph& graph, double min_probability, Placement* placed)
 /// Logarithm of the odds of a placement, up to what all placements share.
 double logOddsOf(const EdgeGraph& graph, const Placement& placed)
 {
-  const std::vector<int> tree = treeOf(graph, placed);
+  const std::vector<int> tree = rarestTreeOf(graph, placed);
   double sum = (static_cast<double>(placed.size() - tree.size()) - 1) * std::log(CHANCE);
   for (const int edge : tree)
     sum += std::log(graph.chance(edge, *graph.agreeing(edge, placed)));
