@@ -265,27 +265,6 @@ TEST_F(PairAlignmentOfABox, StopsWhenCancelled)
   EXPECT_THROW(alignPair(a, a, {}, control), base::Cancelled);
 }
 
-TEST(PartialModel, NamesTheSessionWithoutAnObject)
-{
-  keyframes::Session session;
-  session.id = "mug_1";
-  base::JobControl control;
-  std::vector<rgbd::Keyframe> keyframes = test_support::renderKeyframes(
-      test_support::boxOnTable(), test_support::smallCamera(), test_support::orbitPoses(3, { 0, 0, 0.1 }, 0.6));
-  for (rgbd::Keyframe& keyframe : keyframes)
-    keyframe.frame.object_mask.release();
-  try
-  {
-    makePartialModel(session, keyframes, {}, control);
-    FAIL() << "no mask, and no error";
-  }
-  catch (const base::Error& error)
-  {
-    EXPECT_EQ(error.code(), base::StatusCode::FAILED_PRECONDITION);
-    EXPECT_NE(std::string(error.what()).find("'mug_1' has no object mask"), std::string::npos) << error.what();
-  }
-}
-
 TEST(PairAlignmentOptions, AreChecked)
 {
   PairAlignmentOptions options;

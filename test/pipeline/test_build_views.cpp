@@ -14,7 +14,53 @@ void setColorOffset(keyframes::SessionStore& store, const std::string& session_i
   change.calibration->color_offset_px = offset_px;
   store.update(session_id, change);
 }
+
+/// Makes the camera of these keyframes unsure by as much, in all directions.
+void setSigma(keyframes::SessionStore& store, const std::string& session_id, const std::vector<int>& keyframe_ids,
+              double translation_m, double rotation_rad)
+{
+  geometry::Vector6d sigmas;
+  sigmas << Eigen::Vector3d::Constant(translation_m), Eigen::Vector3d::Constant(rotation_rad);
+  keyframes::SessionChange change;
+  for (const int id : keyframe_ids)
+  {
+    const Eigen::Isometry3d T_session_camera = store.keyframe(session_id, id).T_session_camera;
+    const geometry::Matrix6d adjoint = geometry::adjoint(T_session_camera);
+    const geometry::Matrix6d covariance = adjoint * sigmas.cwiseAbs2().asDiagonal() * adjoint.transpose();
+    change.poses.push_back({ id, T_session_camera, covariance });
+  }
+  store.update(session_id, change);
+}
 }  // namespace
+
+TEST_F(BuildObject, KeyframesWhosePosesAreNotKnownAreLeftOutAndNamed)
+{
+  setSigma(*store_, "box", { 2, 5 }, 0.03, 0.001);
+  setSigma(*store_, "box", { 7 }, 0.002, 0.003);
+  Views views;
+  ASSERT_TRUE(loadViews(*store_, { { "box", Eigen::Isometry3d::Identity() } }, control_, &views).ok());
+  ASSERT_EQ(views.views.size(), 10u);
+  ASSERT_EQ(views.origins.size(), 10u);
+  EXPECT_EQ(views.origins[2].keyframe_id, 3);
+  EXPECT_EQ(views.origins[5].keyframe_id, 7);
+  ASSERT_EQ(views.warnings.size(), 1u);
+  EXPECT_NE(views.warnings[0].find("2 of the 12 keyframes of session 'box' are left out"), std::string::npos)
+      << views.warnings[0];
+  const BuildReport report = build({ "box" });
+  ASSERT_TRUE(report.status.ok()) << report.status.message;
+  EXPECT_NE(report.status.message.find(views.warnings[0]), std::string::npos) << report.status.message;
+}
+
+TEST_F(BuildObject, OfASessionThatIsMostlyNotKnownAllIsTakenAndDoubted)
+{
+  setSigma(*store_, "box", { 1, 2, 3, 4, 5, 6, 7, 8 }, 0.001, 0.05);
+  Views views;
+  ASSERT_TRUE(loadViews(*store_, { { "box", Eigen::Isometry3d::Identity() } }, control_, &views).ok());
+  EXPECT_EQ(views.views.size(), 12u);
+  ASSERT_EQ(views.warnings.size(), 1u);
+  EXPECT_NE(views.warnings[0].find("of 8 of the 12 keyframes of session 'box'"), std::string::npos)
+      << views.warnings[0];
+}
 
 TEST_F(BuildObject, ViewsOfAllSessionsAreInTheReferenceFrame)
 {
