@@ -73,7 +73,7 @@ PairCandidate alignByPoints(const registration::PartialModel& a, const registrat
   registration::PairIcpOptions coarse;
   coarse.gate_m = MAX_MOVE_RATIO * part_a.radius_m;
   coarse.last_gate_m = 0.3 * coarse.gate_m;
-  Eigen::Isometry3f refined = registration::alignSurfaces(part_a, part_b, clicked.cast<float>(), coarse);
+  Eigen::Isometry3f refined = registration::alignByIcp(part_a, part_b, clicked.cast<float>(), coarse);
   const registration::PartPair pair(part_a, part_b, options.threads);
   registration::PairQuality quality = registration::refinePairPose(pair, &refined);
   const Eigen::Vector3d centre = b.centre().cast<double>();

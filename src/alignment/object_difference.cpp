@@ -20,12 +20,12 @@ constexpr float SAME_SIDE_COSINE = 0.5F;
 constexpr double FREE_STRAY_RATIO = 0.005;  // less is noise
 constexpr double COLOR_VARIANCE = 0.002;    // of colours of one surface, at least
 constexpr double NOISE_QUANTILE = 0.95;     // of the differences of the two sessions' colours at the best pose
-constexpr float LEAST_PRINT = 0.15F;        // difference of colours that is noise in any case
+constexpr float COLOR_NOISE = 0.15F;        // difference of colours that is noise in any case
 
 /// What becomes of the points of one part.
 struct Moved
 {
-  double stray = 0, unknown = 0, met = 0, squares = 0, print = 0;
+  double stray = 0, unknown = 0, met = 0, squares = 0, texture = 0;
 };
 
 /// Point of a part that a moved point comes to lie on; -1 if it lies on none.
@@ -45,7 +45,7 @@ float sameReach_m(const registration::MatchedSurface& a, const registration::Mat
   return static_cast<float>(SAME_SHAPE_SPACINGS * std::max(a.model.spacing_m, b.model.spacing_m));
 }
 
-/// What the colours of one place differ by between the sessions, at most: more is other print.
+/// What the colours of one place differ by between the sessions, at most: more is other texture.
 float colorNoise(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
                  const Eigen::Isometry3f& T_a_b)
 {
@@ -56,7 +56,7 @@ float colorNoise(const registration::MatchedSurface& a, const registration::Matc
     if (j >= 0)
       differences.push_back((a.blurred_colors[j] - b.blurred_colors[i]).norm());
   }
-  return std::max(LEAST_PRINT, base::quantile(std::move(differences), NOISE_QUANTILE));
+  return std::max(COLOR_NOISE, base::quantile(std::move(differences), NOISE_QUANTILE));
 }
 
 /// Moves the points of a part by `T` in its own frame.
@@ -81,7 +81,7 @@ Moved move(const registration::MatchedSurface& part, const registration::Matched
       result.met += 1;
       const float squared = (met->blurred_colors[j] - part.blurred_colors[i]).squaredNorm();
       result.squares += squared;
-      result.print += squared > color_noise * color_noise;
+      result.texture += squared > color_noise * color_noise;
     }
     else if (registration::seenThrough(part.model.views, p) || registration::seenThrough(other.model.views, p_other))
       result.stray += 1;
@@ -112,7 +112,8 @@ ObjectDifference PoseComparison::differenceOf(const Eigen::Isometry3f& T_a_b_riv
     met += met_here;
     squares += forth.squares + back.squares;
     result.stray_ratio = std::max(result.stray_ratio, std::max(forth.stray, back.stray) / std::max(1.0, all));
-    result.print_ratio = std::max(result.print_ratio, (forth.print + back.print) / std::max(1.0, met_here));
+    result.other_texture_ratio =
+        std::max(result.other_texture_ratio, (forth.texture + back.texture) / std::max(1.0, met_here));
   };
   add(b_, move(b_, a_, T_a_b_best_, T_b_a_best * T_a_b_rival, color_noise_),
       move(b_, a_, T_a_b_best_, T_b_a_rival * T_a_b_best_, color_noise_));
@@ -129,8 +130,8 @@ const char* nameOf(DifferenceFeature feature)
   {
     case DifferenceFeature::STRAY:
       return "stray";
-    case DifferenceFeature::PRINT:
-      return "print";
+    case DifferenceFeature::TEXTURE:
+      return "texture";
     case DifferenceFeature::RIVALRY:
       break;
   }
@@ -145,7 +146,7 @@ DifferenceFeatures featuresOf(const ObjectDifference& difference, double log_odd
 
 double sameObjectProbability(const ObjectDifference& difference, double log_odds_gap)
 {
-  if (difference.unknown_ratio > MAX_UNKNOWN_RATIO || difference.print_ratio > MAX_PRINT_RATIO)
+  if (difference.unknown_ratio > MAX_UNKNOWN_RATIO || difference.other_texture_ratio > MAX_OTHER_TEXTURE_RATIO)
     return 0;
   const DifferenceFeatures features = featuresOf(difference, log_odds_gap);
   double log_odds = DIFFERENCE_BIAS;

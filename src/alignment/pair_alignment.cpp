@@ -84,7 +84,7 @@ std::vector<Candidate> coarse(const registration::PartPair& pair, const PairAlig
   {
     Proposal& proposal = proposals[i];
     if (proposal.kind != ProposalKind::FEATURES)
-      proposal.T_a_b = registration::alignSurfaces(a, b, proposal.T_a_b, icp);
+      proposal.T_a_b = registration::alignByIcp(a, b, proposal.T_a_b, icp);
     const bool stands = registration::contactGap_m(a, b, proposal.T_a_b) < MAX_COARSE_GAP_RATIO * a.radius_m;
     candidates[i] = { proposal, stands ? registration::coarseOverlap(a, b, proposal.T_a_b) : 0, {} };
   }

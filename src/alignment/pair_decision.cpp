@@ -13,7 +13,7 @@ namespace object_modelling::alignment
 namespace
 {
 constexpr double MIN_RIVAL_SHARE = 1e-3;   // of the best one's odds: less does not change a probability
-constexpr double PLAIN = 0.05;             // deviation of the colours of a surface that has no print to speak of
+constexpr double PLAIN = 0.05;             // deviation of the colours of a surface that has no texture to speak of
 constexpr double MAX_STRAY_RATIO = 0.04;   // of the points where nothing is: another shape
 constexpr double HARDLY_AGAINST = -1;      // what a figure takes off the log odds, to be named as the reason
 constexpr double MAX_LOG_ODDS = 500;       // exponents beyond overflow
@@ -61,7 +61,7 @@ std::string whyUnlikely(const registration::PairQuality& quality, const PairAlig
            ": record the object so that more of it is seen in both sessions";
   const FeatureVector evidence = contributions(quality);
   const auto of = [&](Feature feature) { return evidence[static_cast<std::size_t>(feature)]; };
-  const double color = of(Feature::PRINT) + of(Feature::COLOR) + of(Feature::EDGES);
+  const double color = of(Feature::TEXTURE) + of(Feature::COLOR) + of(Feature::EDGES);
   const double space = of(Feature::SPACE) + of(Feature::THROUGH);
   const double turn = turnPrior(quality, options.same_pose_probability);
   const double worst = std::min({ space, of(Feature::CONTACT), of(Feature::FIT), color, turn });
@@ -72,7 +72,7 @@ std::string whyUnlikely(const registration::PairQuality& quality, const PairAlig
            percent(options.min_probability) +
            " is needed): nothing speaks against it, but too little for it; record more of what both sessions see, or "
            "lean "
-           "the object so that a printed face is seen in both";
+           "the object so that a textured face is seen in both";
   if (worst == turn)
     return NOT_TURNED;
   if (worst == color)
@@ -101,7 +101,7 @@ double weighUp(const PairAlignmentOptions& options, std::vector<PairCandidate>* 
 
 bool refusesAsNotTurned(const registration::PairQuality& quality, const PairAlignmentOptions& options)
 {
-  return saysNotTurned(quality) && options.same_pose_probability < ASKED_PROBABILITY;
+  return impliesNotTurned(quality) && options.same_pose_probability < ASKED_PROBABILITY;
 }
 
 /// A pose against the one that is to be accepted.
@@ -158,7 +158,7 @@ bool leadByTurned(const std::vector<Compared>& others, const PairAlignmentOption
   for (const Compared& other : others)
   {
     const registration::PairQuality& quality = (*candidates)[other.index].quality;
-    if (other.same_object_probability <= JOINED || saysNotTurned(quality) || !fitsAtAll(quality, options) ||
+    if (other.same_object_probability <= JOINED || impliesNotTurned(quality) || !fitsAtAll(quality, options) ||
         aloneProbability(quality, options) < options.min_probability)
       continue;
     std::rotate(candidates->begin(), candidates->begin() + static_cast<std::ptrdiff_t>(other.index),
@@ -249,9 +249,9 @@ std::string whyAmbiguous(const PairCandidate& best, const PairCandidate& rival, 
   if (best.quality.texture < PLAIN)
     return two +
            ": the shape is symmetric, and the sides that both sessions see are plain: lean the object so that a "
-           "printed face is seen in both";
+           "textured face is seen in both";
   return two +
-         ": the shape is symmetric, and the print that both sessions see is alike in both: record the object so "
+         ": the shape is symmetric, and the texture that both sessions see is alike in both: record the object so "
          "that a side that tells them apart is seen in both";
 }
 
@@ -260,7 +260,7 @@ std::string whyAlmost(const registration::PairQuality& quality, std::size_t same
 {
   return std::to_string(same + 1) + " poses probably make the same object, but are right with a probability of " +
          percentBelow(quality.probability) + " only (at least " + percent(options.min_probability) +
-         " is needed): accept the best one if it looks right, or lean the object so that a printed face is seen in "
+         " is needed): accept the best one if it looks right, or lean the object so that a textured face is seen in "
          "both "
          "sessions";
 }

@@ -13,12 +13,13 @@ static_assert(std::size(WEIGHTS) == FEATURE_COUNT);
 
 constexpr double ENOUGH_OVERLAP = 0.3;
 constexpr double FREE_FSV_RATIO = 0.004, MOST_FSV_RATIO = 0.1, FSV_UNIT_RATIO = 0.05;
-constexpr double SURFACE_SIGMA_M = 0.0003;                   // of fused surfaces, besides their roughness
-constexpr double CONTACT_SIGMA_M = 0.0012;                   // of a support plane, and of a foot that was seen
-constexpr double MOST_CONTACT = 8;                           // a gap beyond some sigmas is no worse
-constexpr double COLOR_VARIANCE = 0.01, COLOR_RATIO = 0.15;  // of colours of the same surface in two sessions; of print
-constexpr double EDGE_VARIANCE = 0.0025;                     // of the slopes of the colours
-constexpr double NOT_TURNED_RAD = 0.26, TURNED_RAD = 0.52;   // 15 and 30 deg: between them it may have been
+constexpr double SURFACE_SIGMA_M = 0.0003;  // of fused surfaces, besides their roughness
+constexpr double CONTACT_SIGMA_M = 0.0012;  // of a support plane, and of a foot that was seen
+constexpr double MOST_CONTACT = 8;          // a gap beyond some sigmas is no worse
+constexpr double COLOR_VARIANCE = 0.01,
+                 COLOR_RATIO = 0.15;      // of colours of the same surface in two sessions; of texture
+constexpr double EDGE_VARIANCE = 0.0025;  // of the slopes of the colours
+constexpr double NOT_TURNED_RAD = 0.26, TURNED_RAD = 0.52;  // 15 and 30 deg: between them it may have been
 
 /// How far a pose lets the object turn, from not at all, 1, to as far as needed, 0.
 double notTurned(const registration::PairQuality& quality)
@@ -57,8 +58,8 @@ const char* nameOf(Feature feature)
       return "fit";
     case Feature::CONTACT:
       return "contact";
-    case Feature::PRINT:
-      return "print";
+    case Feature::TEXTURE:
+      return "texture";
     case Feature::COLOR:
       return "color";
     case Feature::EDGES:
@@ -79,18 +80,18 @@ FeatureVector featuresOf(const registration::PairQuality& quality)
   at(Feature::THROUGH) = -std::min(quality.fsv_ratio, MOST_FSV_RATIO) / FSV_UNIT_RATIO;
   at(Feature::FIT) = -std::log(std::max(quality.rmse_m, 1e-5) / std::hypot(SURFACE_SIGMA_M, quality.roughness_m));
   at(Feature::CONTACT) = contactFeature(quality);
-  // Little in common tells little of print.
+  // Little in common tells little of texture.
   const double share = std::min(1.0, quality.overlap_ratio / ENOUGH_OVERLAP);
   const double variance = quality.texture * quality.texture, edges = quality.edge_strength * quality.edge_strength;
   const double difference = variance * (1 - quality.color_agreement) - quality.light_variance;
-  at(Feature::PRINT) = share * explained(variance, COLOR_RATIO * variance, COLOR_VARIANCE);
+  at(Feature::TEXTURE) = share * explained(variance, COLOR_RATIO * variance, COLOR_VARIANCE);
   at(Feature::COLOR) = share * explained(variance, difference, COLOR_VARIANCE);
   at(Feature::EDGES) = share * explained(edges, edges * (1 - quality.edge_agreement), EDGE_VARIANCE);
   at(Feature::FEATURES) = std::log1p(quality.features_upheld);
   return result;
 }
 
-bool saysNotTurned(const registration::PairQuality& quality)
+bool impliesNotTurned(const registration::PairQuality& quality)
 {
   return notTurned(quality) >= 0.5;
 }

@@ -11,7 +11,7 @@ constexpr double WEIGHTS[] = {
   2.9675,   // through, +- 1.46
   1.5667,   // fit, +- 1.86
   0.6183,   // contact, +- 0.35
-  -0.3745,  // print, +- 1.83
+  -0.3745,  // texture, +- 1.83
   1.4129,   // color, +- 2.51
   9.2534,   // edges, +- 3.67
   0.0613,   // features, +- 0.66

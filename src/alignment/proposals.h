@@ -24,7 +24,7 @@ std::vector<Proposal> proposeByStablePlanes(const registration::MatchedSurface& 
                                             const registration::MatchedSurface& b);
 
 /// Rotations evenly over all of them (Alexa: Super-Fibonacci Spirals, CVPR 2022), the centres of the boxes brought
-/// together: for shapes without faces or print.
+/// together: for shapes without faces or texture.
 std::vector<Proposal> proposeByShape(const registration::MatchedSurface& a, const registration::MatchedSurface& b,
                                      int rotations);
 

@@ -54,7 +54,7 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
   options.part.use_color = !arguments.grey;
   options.use_known = !arguments.anew;
   decide(arguments, *store);
-  alignment::AlignmentResult aligned = pipeline::alignSessions(*store, ids, options, control);
+  alignment::AlignmentResult aligned = pipeline::alignStoredSessions(*store, ids, options, control);
   if (!aligned.left_out.empty())
     aligned.status.message += "; " + remedyFor(aligned, { arguments.object_id, arguments.store, "" });
   CommandOutput output;

@@ -50,7 +50,7 @@ bundle_adjustment::BundleAdjustmentResult adjusted(const std::string& recording,
   const pipeline::SessionRefinement refined = pipeline::refineSessionBy(store.get(), session.id, options, control);
   if (!refined.status.ok())
     throw base::Error(refined.status.code, recording + ": " + refined.status.message +
-                                               "; record an object and a table with print, once round");
+                                               "; record an object and a table with texture, once round");
   return *refined.bundle_adjustment;
 }
 
@@ -104,7 +104,7 @@ void findDepthDistortion(const Arguments& arguments, rgbd::SensorNoiseModel* mod
        << 100 * mean.disagreement_ratio << " %: " << (mean.agrees ? "taken off" : "not taken, they do not agree")
        << "\n";
   if (!mean.agrees)
-    text << "note      record once round, 10 s or more, with print on the table in all of the view; give three or "
+    text << "note      record once round, 10 s or more, with texture on the table in all of the view; give three or "
             "more\n";
   if (mean.agrees)
     for (std::size_t i = 0; i < mean.ratio.size(); ++i)
@@ -141,9 +141,10 @@ void addCalibrateCameraCommand(CLI::App& app, Command* chosen)
                          "By how much a camera's colour images are shifted against its depth images, and what "
                          "its depth is distorted by");
   command
-      ->add_option("recordings", arguments->recordings,
-                   "TUM-style folders or ROS bags of one camera: once round an object, with print on it and its table. "
-                   "Two or more tell the distortion too")
+      ->add_option(
+          "recordings", arguments->recordings,
+          "TUM-style folders or ROS bags of one camera: once round an object, with texture on it and its table. "
+          "Two or more tell the distortion too")
       ->required();
   command
       ->add_option(

@@ -36,7 +36,7 @@ void addRecordOptions(CLI::App& command, RecordArguments* arguments)
           "--refinement",
           [arguments](const std::string& value) { arguments->refinement = pipeline::refinementMethodFrom(value); },
           "How keyframe poses are refined: 'bundle_adjustment' (landmarks), 'multi_view_icp' (surfaces; needs no "
-          "print) "
+          "texture) "
           "or 'both', one after the other (default)")
       ->check(CLI::IsMember({ "bundle_adjustment", "multi_view_icp", "both" }));
 }

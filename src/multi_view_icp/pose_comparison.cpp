@@ -27,7 +27,7 @@ struct Sample
 };
 
 /// What one sample meets in another view.
-struct Meeting
+struct SampleResidual
 {
   bool seen = false;
   double depth_sigmas = 0, gray = 0;
@@ -74,65 +74,66 @@ std::vector<Sample> samplesOf(const rgbd::Frame& frame, const PoseComparisonOpti
   return samples;
 }
 
-/// What a sample of `frame` meets in `other`.
-Meeting meet(const Sample& sample, const rgbd::Frame& frame, const rgbd::Frame& other,
-             const Eigen::Isometry3d& T_other_camera, const Eigen::Vector2d& color_offset_px, bool object_only)
+/// Depth and grey level of a sample of `frame` against those of `other`.
+SampleResidual residualOf(const Sample& sample, const rgbd::Frame& frame, const rgbd::Frame& other,
+                          const Eigen::Isometry3d& T_other_camera, const Eigen::Vector2d& color_offset_px,
+                          bool object_only)
 {
-  Meeting meeting;
+  SampleResidual residual;
   const Eigen::Vector3d q = T_other_camera * sample.p_camera;
   const geometry::Projection<double> at = geometry::projectionOf(other.camera, q, 1);
   double here = 0, there = 0;
   if (!at.inside || !usable(other, at.column, at.row, object_only) ||
       !grayAt(frame, sample.pixel, color_offset_px, &here) || !grayAt(other, at.pixel(), color_offset_px, &there))
-    return meeting;
-  meeting.seen = true;
-  meeting.depth_sigmas =
+    return residual;
+  residual.seen = true;
+  residual.depth_sigmas =
       (at.z_m - other.depthAt_m(at.column, at.row)) / (SLANT * M_SQRT2 * other.noise_model.axialSigma_m(at.z_m, 0));
-  meeting.gray = here - there;
-  return meeting;
+  residual.gray = here - there;
+  return residual;
 }
 
-/// Adds to the score of each set what the samples of view i meet in view j.
+/// Adds to the score of each set the residuals of the samples of view i in view j.
 void addPair(const std::vector<rgbd::View>& views, std::size_t i, std::size_t j, const std::vector<Sample>& samples,
              const std::vector<PoseSet>& sets, const PoseComparisonOptions& options, std::vector<PoseScore>* scores)
 {
   std::vector<Eigen::Isometry3d> T_j_i;
   for (const PoseSet& set : sets)
     T_j_i.push_back(set.T_world_camera.at(j).inverse() * set.T_world_camera.at(i));
-  std::vector<std::vector<Meeting>> meetings(sets.size());  // of samples that all sets see there
-  std::vector<Meeting> met;
+  std::vector<std::vector<SampleResidual>> residuals(sets.size());  // of samples that all sets see there
+  std::vector<SampleResidual> of_sample;
   for (std::size_t n = 0; n < samples.size(); ++n)
   {
     const Sample& sample = samples[n];
-    if (n == FIRST && static_cast<double>(meetings.front().size()) < options.min_overlap_ratio / 2 * FIRST)
+    if (n == FIRST && static_cast<double>(residuals.front().size()) < options.min_overlap_ratio / 2 * FIRST)
       return;  // most of many views have nothing in common
-    met.clear();
+    of_sample.clear();
     double nearest_sigmas = MAX_OFF_SIGMAS;
-    for (std::size_t k = 0; k < sets.size() && (met.empty() || met.back().seen); ++k)
+    for (std::size_t k = 0; k < sets.size() && (of_sample.empty() || of_sample.back().seen); ++k)
     {
-      met.push_back(
-          meet(sample, views[i].frame, views[j].frame, T_j_i[k], sets[k].color_offset_px, options.object_only));
-      nearest_sigmas = std::min(nearest_sigmas, std::abs(met.back().depth_sigmas));
+      of_sample.push_back(
+          residualOf(sample, views[i].frame, views[j].frame, T_j_i[k], sets[k].color_offset_px, options.object_only));
+      nearest_sigmas = std::min(nearest_sigmas, std::abs(of_sample.back().depth_sigmas));
     }
-    if (met.size() < sets.size() || !met.back().seen || nearest_sigmas >= MAX_OFF_SIGMAS)
+    if (of_sample.size() < sets.size() || !of_sample.back().seen || nearest_sigmas >= MAX_OFF_SIGMAS)
       continue;
-    for (std::size_t k = 0; k < met.size(); ++k)
-      meetings[k].push_back(met[k]);
+    for (std::size_t k = 0; k < of_sample.size(); ++k)
+      residuals[k].push_back(of_sample[k]);
   }
-  const std::size_t count = meetings.front().size();
+  const std::size_t count = residuals.front().size();
   if (count == 0 || static_cast<double>(count) < options.min_overlap_ratio * static_cast<double>(samples.size()))
     return;
-  for (std::size_t k = 0; k < meetings.size(); ++k)
+  for (std::size_t k = 0; k < residuals.size(); ++k)
   {
     std::vector<double> grays;
-    for (const Meeting& meeting : meetings[k])
-      grays.push_back(meeting.gray);
+    for (const SampleResidual& residual : residuals[k])
+      grays.push_back(residual.gray);
     const double exposure = base::median(&grays);
     double depth = 0, gray = 0;
-    for (const Meeting& meeting : meetings[k])
+    for (const SampleResidual& residual : residuals[k])
     {
-      depth += robust(meeting.depth_sigmas);
-      gray += robust((meeting.gray - exposure) / GRAY_SIGMA);
+      depth += robust(residual.depth_sigmas);
+      gray += robust((residual.gray - exposure) / GRAY_SIGMA);
     }
     (*scores)[k].depth += depth / static_cast<double>(count);
     (*scores)[k].gray += gray / static_cast<double>(count);

@@ -107,9 +107,9 @@ std::vector<registration::PartialModel> loadParts(keyframes::SessionStore& store
   return parts;
 }
 
-alignment::AlignmentResult alignParts(keyframes::SessionStore& store,
-                                      const std::vector<registration::PartialModel>& parts, const AlignOptions& options,
-                                      base::JobControl& control)
+alignment::AlignmentResult alignStoredParts(keyframes::SessionStore& store,
+                                            const std::vector<registration::PartialModel>& parts,
+                                            const AlignOptions& options, base::JobControl& control)
 {
   base::checked(options);
   std::vector<AlignmentEdge> known = knownEdges(store, parts);
@@ -132,8 +132,9 @@ alignment::AlignmentResult alignParts(keyframes::SessionStore& store,
   return result;
 }
 
-alignment::AlignmentResult alignSessions(keyframes::SessionStore& store, const std::vector<std::string>& session_ids,
-                                         const AlignOptions& options, base::JobControl& control)
+alignment::AlignmentResult alignStoredSessions(keyframes::SessionStore& store,
+                                               const std::vector<std::string>& session_ids, const AlignOptions& options,
+                                               base::JobControl& control)
 {
   base::checked(options);
   if (session_ids.size() == 1)
@@ -144,7 +145,7 @@ alignment::AlignmentResult alignSessions(keyframes::SessionStore& store, const s
     alone.placements.push_back({ session_ids.front(), Eigen::Isometry3d::Identity() });
     return alone;
   }
-  return alignParts(store, loadParts(store, session_ids, options.part, control), options, control);
+  return alignStoredParts(store, loadParts(store, session_ids, options.part, control), options, control);
 }
 
 AlignmentEdge knownAlignment(keyframes::SessionStore& store, const std::string& session_a, const std::string& session_b)

@@ -168,7 +168,7 @@ void LocalStages::segment(const std::vector<std::string>& session_ids, base::Job
   for (const std::string& id : session_ids)
   {
     const SegmentReport segmented =
-        segmentSession(store_, id, options_.seed_point_session, options_.segmentation, control);
+        segmentStoredSession(store_, id, options_.seed_point_session, options_.segmentation, control);
     onSegmented(segmented);
     throwUnlessOk("segmentation of session '" + id + "'", segmented.status);
   }
@@ -176,7 +176,7 @@ void LocalStages::segment(const std::vector<std::string>& session_ids, base::Job
 
 AlignedSessions LocalStages::align(const std::vector<std::string>& session_ids, base::JobControl& control)
 {
-  const alignment::AlignmentResult aligned = alignSessions(store_, session_ids, options_.align, control);
+  const alignment::AlignmentResult aligned = alignStoredSessions(store_, session_ids, options_.align, control);
   onAligned(aligned);
   return { aligned.status, aligned.placements, leftOutOf(aligned) };
 }

@@ -6,9 +6,9 @@
 
 namespace object_modelling::pipeline
 {
-SegmentReport segmentSession(keyframes::SessionStore& store, const std::string& session_id,
-                             const std::optional<Eigen::Vector3d>& seed_point_session,
-                             const segmentation::ObjectMaskPropagatorOptions& options, base::JobControl& control)
+SegmentReport segmentStoredSession(keyframes::SessionStore& store, const std::string& session_id,
+                                   const std::optional<Eigen::Vector3d>& seed_point_session,
+                                   const segmentation::ObjectMaskPropagatorOptions& options, base::JobControl& control)
 {
   SegmentReport report;
   report.session_id = session_id;
@@ -46,9 +46,10 @@ SegmentReport segmentSession(keyframes::SessionStore& store, const std::string& 
   return report;
 }
 
-bundle_adjustment::BundleAdjustmentResult refineSession(keyframes::SessionStore& store, const std::string& session_id,
-                                                        bundle_adjustment::BundleAdjustmentOptions options,
-                                                        base::JobControl& control)
+bundle_adjustment::BundleAdjustmentResult refineStoredSession(keyframes::SessionStore& store,
+                                                              const std::string& session_id,
+                                                              bundle_adjustment::BundleAdjustmentOptions options,
+                                                              base::JobControl& control)
 {
   RefinementOptions by_bundle;
   by_bundle.method = RefinementMethod::BUNDLE_ADJUSTMENT;

@@ -19,7 +19,7 @@ constexpr float MAX_CONTRAST = 1.2F;                   // of logarithms
 constexpr float HALF_HUE = 0.15F;                      // length of opponent colours that is compressed to one half
 
 constexpr std::size_t MIN_POINTS = 30;
-constexpr double DAMPING = 0.02;      // of the harmonics but the constant: one face must not explain its own print
+constexpr double DAMPING = 0.02;      // of the harmonics but the constant: one face must not explain its own texture
 constexpr double MIN_SCATTER = 0.03;  // of logarithms of brightness, robust deviation
 constexpr int REWEIGHTINGS = 6;
 

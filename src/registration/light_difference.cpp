@@ -9,7 +9,7 @@ namespace object_modelling::registration
 namespace
 {
 constexpr double LIGHT_SIGMA = 0.15;  // of what another light makes of brightness and hue
-constexpr double PATCHES = 30;        // of a surface whose print errs on its own
+constexpr double PATCHES = 30;        // of a surface whose texture errs on its own
 constexpr double SLOPES = 3;
 
 template <typename Scalar>
@@ -36,7 +36,7 @@ void LightDifference::solve()
   const Eigen::Array3d variance = (squares_ / count - (B_.row(3).transpose().array() / count).square()).max(0);
   for (int channel = 0; channel < 3; ++channel)
   {
-    // Differences of print are noise here, and as many of them as there are patches.
+    // Differences of texture are noise here, and as many of them as there are patches.
     Eigen::Matrix4d damped = A_ + 1e-6 * Eigen::Matrix4d::Identity();
     damped.diagonal().head<3>().array() += count / PATCHES * variance[channel] / (LIGHT_SIGMA * LIGHT_SIGMA);
     light_.col(channel) = damped.ldlt().solve(B_.col(channel)).cast<float>();

@@ -7,7 +7,7 @@ namespace object_modelling::registration
 /// By how much another light changes the colours of a surface. Light comes from elsewhere once the object has been
 /// turned over, and what the table reflects with it: what both make of a surface is, to first order, a difference of
 /// brightness and hue that is linear in the normal (Lambert). Fitted by least squares, as large as light is likely to
-/// make it: print that is dark on one side is no light.
+/// make it: texture that is dark on one side is no light.
 class LightDifference
 {
 public:
@@ -20,7 +20,7 @@ public:
   Eigen::Vector3f at(const Eigen::Vector3f& normal) const;
 
   /// How much of the variance of the differences is light's, given what it is with and without this light taken off.
-  /// Any differences of print are linear in the normal by some share; that is taken off (adjusted R squared, Theil
+  /// Any differences of texture are linear in the normal by some share; that is taken off (adjusted R squared, Theil
   /// 1961).
   static double explained(double variance, double variance_left);
 

@@ -16,7 +16,7 @@ constexpr float FREE_DIRECTION_WEIGHT = 1e-5F;  // of the mean information: what
 constexpr float CONTACT_WEIGHT =
     0.01F;  // of the mean information: the other's support plane tells what surfaces do not
 constexpr float MAX_CONTACT_RATIO = 0.12F;  // of the part's radius; what is farther off does not stand there
-constexpr float MIN_COLOR_SIGMA = 0.08F;    // of what print differs by between sessions: light, focus
+constexpr float MIN_COLOR_SIGMA = 0.08F;    // of what texture differs by between sessions: light, focus
 constexpr float SURFACE_SIGMA_M = 0.0003F;  // of fused points; next to it colours only say what shape leaves open
 constexpr float MIN_SCALE_M = 0.001F;
 constexpr int MIN_PAIRS = 20;
@@ -110,8 +110,8 @@ void addContact(const MatchedSurface& a, const MatchedSurface& b, const Eigen::I
 }
 }  // namespace
 
-Eigen::Isometry3f alignSurfaces(const MatchedSurface& a, const MatchedSurface& b, const Eigen::Isometry3f& T_a_b,
-                                const PairIcpOptions& options)
+Eigen::Isometry3f alignByIcp(const MatchedSurface& a, const MatchedSurface& b, const Eigen::Isometry3f& T_a_b,
+                             const PairIcpOptions& options)
 {
   Eigen::Isometry3f T = T_a_b;
   auto gate_m = static_cast<float>(options.gate_m);

@@ -32,8 +32,8 @@ struct EdgeComparison
   double strength() const { return std::sqrt(ff * mm); }
 };
 
-/// What one part's points meet in the other.
-struct Meeting
+/// The points of one part against the surface and the views of the other.
+struct SurfaceComparison
 {
   double total = 0, same = 0, squares = 0;  // squares: of the point-to-plane distances, m^2
   double front = 0, upheld = 0;             // points that the other's views look through, or see
@@ -42,7 +42,7 @@ struct Meeting
 
 /// Whether the views see a point in front of what they measured, or on it: most of them decide, so that the noise of a
 /// silhouette in one view says nothing.
-void lookAt(const std::vector<SpaceView>& views, const Eigen::Vector3f& p, Meeting* meeting)
+void compareWithViews(const std::vector<SpaceView>& views, const Eigen::Vector3f& p, SurfaceComparison* comparison)
 {
   int front = 0, upheld = 0;
   for (const SpaceView& view : views)
@@ -54,22 +54,23 @@ void lookAt(const std::vector<SpaceView>& views, const Eigen::Vector3f& p, Meeti
     front += seen == rgbd::Visibility::IN_FRONT;
     upheld += seen == rgbd::Visibility::ON;
   }
-  meeting->front += front > upheld && front >= 2;
-  meeting->upheld += upheld >= front && upheld > 0;
+  comparison->front += front > upheld && front >= 2;
+  comparison->upheld += upheld >= front && upheld > 0;
 }
 
-Meeting meet(const MatchedSurface& fixed, const MatchedSurface& moving, const Eigen::Isometry3f& T_fixed_moving,
-             bool many, bool swapped, ColorComparison* colors)
+SurfaceComparison compareSurfaces(const MatchedSurface& fixed, const MatchedSurface& moving,
+                                  const Eigen::Isometry3f& T_fixed_moving, bool many, bool swapped,
+                                  ColorComparison* colors)
 {
-  Meeting meeting;
+  SurfaceComparison comparison;
   const auto reach_m =
       static_cast<float>(SAME_SURFACE_SPACINGS * std::max(fixed.model.spacing_m, moving.model.spacing_m));
   const Eigen::Matrix3f R = T_fixed_moving.linear();
   for (const int i : many ? moving.fine_samples : moving.coarse_samples)
   {
     const Eigen::Vector3f q = T_fixed_moving * moving.model.points[i];
-    meeting.total += 1;
-    lookAt(fixed.model.views, q, &meeting);
+    comparison.total += 1;
+    compareWithViews(fixed.model.views, q, &comparison);
     const int j = fixed.fine.nearest(q);
     if (j < 0)
       continue;
@@ -79,8 +80,8 @@ Meeting meet(const MatchedSurface& fixed, const MatchedSurface& moving, const Ei
     if (off.norm() > 1.5F * reach_m || std::abs(distance_m) > reach_m ||
         n.dot(R * moving.model.normals[i]) < SAME_SIDE_COSINE)
       continue;
-    meeting.same += 1;
-    meeting.squares += distance_m * distance_m;
+    comparison.same += 1;
+    comparison.squares += distance_m * distance_m;
     const Eigen::Vector3f there =
         many ? Eigen::Vector3f(fixed.colors[j] + fixed.gradients[j] * (off - n * distance_m)) : fixed.blurred_colors[j];
     const Eigen::Vector3f& here = many ? moving.colors[i] : moving.blurred_colors[i];
@@ -89,10 +90,10 @@ Meeting meet(const MatchedSurface& fixed, const MatchedSurface& moving, const Ei
     else
       colors->add(there, here, n);
     if (many)
-      meeting.edges.add(static_cast<float>(fixed.slope_length_m) * fixed.blurred_gradients[j],
-                        static_cast<float>(moving.slope_length_m) * moving.blurred_gradients[i] * R.transpose());
+      comparison.edges.add(static_cast<float>(fixed.slope_length_m) * fixed.blurred_gradients[j],
+                           static_cast<float>(moving.slope_length_m) * moving.blurred_gradients[i] * R.transpose());
   }
-  return meeting;
+  return comparison;
 }
 
 /// Angle between what was up in either session, as the object lies; negative where one of them is not known.
@@ -104,7 +105,7 @@ double turn_rad(const MatchedSurface& a, const MatchedSurface& b, const Eigen::I
   return std::acos(std::clamp(a.model.support_plane->normal.dot(up_b), -1.0, 1.0));
 }
 
-void compareEdges(const Meeting& b_on_a, const Meeting& a_on_b, PairQuality* quality)
+void compareEdges(const SurfaceComparison& b_on_a, const SurfaceComparison& a_on_b, PairQuality* quality)
 {
   EdgeComparison both = b_on_a.edges;
   both.ff += a_on_b.edges.ff;
@@ -121,9 +122,9 @@ void compareEdges(const Meeting& b_on_a, const Meeting& a_on_b, PairQuality* qua
 
 bool seenThrough(const std::vector<SpaceView>& views, const Eigen::Vector3f& p)
 {
-  Meeting meeting;
-  lookAt(views, p, &meeting);
-  return meeting.front > 0;
+  SurfaceComparison comparison;
+  compareWithViews(views, p, &comparison);
+  return comparison.front > 0;
 }
 
 double coarseOverlap(const MatchedSurface& a, const MatchedSurface& b, const Eigen::Isometry3f& T_a_b)
@@ -145,8 +146,8 @@ PairQuality measurePair(const PartPair& pair, const Eigen::Isometry3f& T_a_b, bo
 {
   const MatchedSurface &a = pair.a, &b = pair.b;
   ColorComparison colors;
-  const Meeting b_on_a = meet(a, b, T_a_b, many, false, &colors);
-  const Meeting a_on_b = meet(b, a, T_a_b.inverse(), many, true, &colors);
+  const SurfaceComparison b_on_a = compareSurfaces(a, b, T_a_b, many, false, &colors);
+  const SurfaceComparison a_on_b = compareSurfaces(b, a, T_a_b.inverse(), many, true, &colors);
   PairQuality quality;
   quality.overlap_ratio =
       std::max(b_on_a.same / std::max(1.0, b_on_a.total), a_on_b.same / std::max(1.0, a_on_b.total));

@@ -11,10 +11,10 @@ PairQuality refinePairPose(const PartPair& pair, Eigen::Isometry3f* T_a_b)
   icp.last_gate_m = a.model.spacing_m;
   icp.iterations = 12;
   icp.color = ColorDetail::BLURRED;
-  *T_a_b = alignSurfaces(a, b, *T_a_b, icp);
+  *T_a_b = alignByIcp(a, b, *T_a_b, icp);
   icp.color = ColorDetail::SHARP;
   icp.gate_m = icp.last_gate_m;
-  *T_a_b = alignSurfaces(a, b, *T_a_b, icp);
+  *T_a_b = alignByIcp(a, b, *T_a_b, icp);
   return measurePair(pair, *T_a_b, true);
 }
 

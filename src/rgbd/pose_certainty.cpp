@@ -90,8 +90,8 @@ std::string describe(const PathCertainty& path, std::size_t views, const std::st
   const std::string how =
       "it is not known where the camera was (up to " + path.worst.text() + " unsure), since the scene is plain: ";
   if (path.doubtful)
-    return "of " + which + " " + how + "record it again with something printed under or beside the object";
-  return which + " are left out: " + how + "put something printed under or beside the object";
+    return "of " + which + " " + how + "record it again with something textured under or beside the object";
+  return which + " are left out: " + how + "put something textured under or beside the object";
 }
 
 std::vector<std::size_t> knownViews(const PathCertainty& path, std::size_t views)

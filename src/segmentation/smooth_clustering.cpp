@@ -68,7 +68,7 @@ cv::Mat connectHigh(const cv::Mat& depth_m, const cv::Mat& foreground, float rat
         continue;
       const float z = depth_m.at<float>(v, u);
       int label = 0;
-      const auto meet = [&](int x, int y)
+      const auto joinWith = [&](int x, int y)
       {
         const int other = labels.at<int>(y, x);
         if (other == 0 || !connected(z, depth_m.at<float>(y, x), ratio))
@@ -82,19 +82,19 @@ cv::Mat connectHigh(const cv::Mat& depth_m, const cv::Mat& foreground, float rat
       for (int gap = 1; gap <= MAX_GAP_PX + 1 && u - gap >= 0; ++gap)
         if (std::isfinite(depth_m.at<float>(v, u - gap)))
         {
-          meet(u - gap, v);
+          joinWith(u - gap, v);
           break;
         }
       for (int gap = 1; gap <= MAX_GAP_PX + 1 && v - gap >= 0; ++gap)
         if (std::isfinite(depth_m.at<float>(v - gap, u)))
         {
-          meet(u, v - gap);
+          joinWith(u, v - gap);
           break;
         }
       if (v > 0 && u > 0)
-        meet(u - 1, v - 1);
+        joinWith(u - 1, v - 1);
       if (v > 0 && u + 1 < foreground.cols)
-        meet(u + 1, v - 1);
+        joinWith(u + 1, v - 1);
       labels.at<int>(v, u) = label != 0 ? label : static_cast<int>(sets->add());
     }
   }

@@ -71,7 +71,7 @@ std::string unconstrained(const geometry::Matrix6d& covariance, double depth_m)
   const rgbd::PoseSigma sigma = rgbd::poseSigma(covariance);
   if (sigma.isKnown(depth_m))
     return {};
-  return "the view leaves a direction free (" + sigma.text() + " unsure): show more shape or print";
+  return "the view leaves a direction free (" + sigma.text() + " unsure): show more shape or texture";
 }
 
 }  // namespace object_modelling::tracking

@@ -14,9 +14,9 @@ struct RecognisedSurfaces
   bool unique = true;  ///< no other keyframe fits nearly as well at another pose
 };
 
-/// Places a frame that looks from near a keyframe by aligning it densely: quick, and works without print. Tried are the
-/// keyframes whose images are most alike and, if given, those nearest to `T_session_camera_hint`. The best alignment is
-/// given if `certain()`; whoever uses it checks landmarks too.
+/// Places a frame that looks from near a keyframe by aligning it densely: quick, and works without texture. Tried are
+/// the keyframes whose images are most alike and, if given, those nearest to `T_session_camera_hint`. The best
+/// alignment is given if `certain()`; whoever uses it checks landmarks too.
 std::optional<RecognisedSurfaces> relocaliseBySurfaces(const registration::DensePyramid& frame,
                                                        const cv::Mat& thumbnail, const KeyframeMap& map,
                                                        const std::optional<Eigen::Isometry3d>& T_session_camera_hint);

@@ -84,15 +84,15 @@ TEST(ObjectDifference, CountsOtherPrintBeyondTheNoiseOfTheSessions)
 {
   const auto striped = [](float difference)
   { return [=](const Eigen::Vector3f& p) { return Eigen::Vector3f(p.x() > 0.04F ? difference : 0, 0, 0); }; };
-  // A quarter of the plate is printed: half of it meets other print when it is half turned.
+  // A quarter of the plate is printed: half of it meets other texture when it is half turned.
   const registration::PartialModel a = plate(striped(0.4F));
-  EXPECT_NEAR(between(a, a, Eigen::Isometry3f::Identity(), turned_deg(180)).print_ratio, 0.5, 0.05);
-  EXPECT_LT(between(a, a, Eigen::Isometry3f::Identity(), turned_deg(0)).print_ratio, 0.01);
+  EXPECT_NEAR(between(a, a, Eigen::Isometry3f::Identity(), turned_deg(180)).other_texture_ratio, 0.5, 0.05);
+  EXPECT_LT(between(a, a, Eigen::Isometry3f::Identity(), turned_deg(0)).other_texture_ratio, 0.01);
   const registration::PartialModel faint = plate(striped(0.1F));
-  EXPECT_EQ(between(faint, faint, Eigen::Isometry3f::Identity(), turned_deg(180)).print_ratio, 0);
+  EXPECT_EQ(between(faint, faint, Eigen::Isometry3f::Identity(), turned_deg(180)).other_texture_ratio, 0);
   // Sessions that differ as much by themselves tell nothing of it.
   const registration::PartialModel b = plate(registration::plain);
-  EXPECT_LT(between(a, b, Eigen::Isometry3f::Identity(), turned_deg(180)).print_ratio, 0.1);
+  EXPECT_LT(between(a, b, Eigen::Isometry3f::Identity(), turned_deg(180)).other_texture_ratio, 0.1);
 }
 
 TEST(ObjectDifference, OfNoPointsIsNone)
@@ -120,8 +120,8 @@ TEST(SameObjectProbability, FallsWithEachDifference)
   EXPECT_LT(sameObjectProbability({ 0, 0, 0.01 }, 3), sameObjectProbability({ 0, 0, 0.01 }, 0));
   EXPECT_GT(sameObjectProbability({ 0, MAX_UNKNOWN_RATIO, 0 }, 0), 0.9);
   EXPECT_EQ(sameObjectProbability({ 0, MAX_UNKNOWN_RATIO + 0.001, 0 }, 0), 0) << "nobody knows";
-  EXPECT_GT(sameObjectProbability({ 0, 0, 0, MAX_PRINT_RATIO }, 0), 0.9);
-  EXPECT_EQ(sameObjectProbability({ 0, 0, 0, MAX_PRINT_RATIO + 0.001 }, 0), 0) << "other print";
+  EXPECT_GT(sameObjectProbability({ 0, 0, 0, MAX_OTHER_TEXTURE_RATIO }, 0), 0.9);
+  EXPECT_EQ(sameObjectProbability({ 0, 0, 0, MAX_OTHER_TEXTURE_RATIO + 0.001 }, 0), 0) << "other texture";
   EXPECT_EQ(sameObjectProbability({}, 100), sameObjectProbability({}, MAX_RIVALRY)) << "bounded";
   EXPECT_EQ(sameObjectProbability({}, -3), sameObjectProbability({}, 0)) << "a better one is a rival at any distance";
 }
@@ -129,7 +129,7 @@ TEST(SameObjectProbability, FallsWithEachDifference)
 TEST(DifferenceFeature, HasTheNamesThatTheFitKnows)
 {
   EXPECT_STREQ(nameOf(DifferenceFeature::STRAY), "stray");
-  EXPECT_STREQ(nameOf(DifferenceFeature::PRINT), "print");
+  EXPECT_STREQ(nameOf(DifferenceFeature::TEXTURE), "texture");
   EXPECT_STREQ(nameOf(DifferenceFeature::RIVALRY), "rivalry");
 }
 

@@ -14,7 +14,7 @@ namespace
 {
 const Eigen::Vector3f X = Eigen::Vector3f::UnitX(), Y = Eigen::Vector3f::UnitY(), Z = Eigen::Vector3f::UnitZ();
 
-/// Figures of a pose that is right: turned over, touching, print that agrees.
+/// Figures of a pose that is right: turned over, touching, texture that agrees.
 registration::PairQuality good()
 {
   registration::PairQuality quality;
@@ -29,7 +29,7 @@ registration::PairQuality good()
   return quality;
 }
 
-/// The same of a surface without print: less is known.
+/// The same of a surface without texture: less is known.
 registration::PairQuality bare()
 {
   registration::PairQuality quality = good();
@@ -271,7 +271,7 @@ TEST(PairDecision, PrintThatDiffersMakesTwoPosesLessTheSame)
   EXPECT_TRUE(plain.accepted) << plain.reason;
   EXPECT_GT(plain.candidates[0].quality.probability, faint.candidates[0].quality.probability + 0.01);
   EXPECT_GT(faint.candidates[0].quality.probability, strong.candidates[0].quality.probability + 0.01);
-  expectReason(strong, "two poses 180 deg apart score alike: the shape is symmetric, and the print that both");
+  expectReason(strong, "two poses 180 deg apart score alike: the shape is symmetric, and the texture that both");
   registration::PairQuality pale = good();
   pale.texture = 0.04;
   expectReason(decidedOfHalfTurn(half_painted(1.5F), pale), "the sides that both sessions see are plain");

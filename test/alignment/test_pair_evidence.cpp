@@ -18,7 +18,7 @@ double valueOf(Feature feature, const registration::PairQuality& quality)
   return featuresOf(quality)[static_cast<std::size_t>(feature)];
 }
 
-/// A pose like those that are right: turned over, touching, print that agrees.
+/// A pose like those that are right: turned over, touching, texture that agrees.
 registration::PairQuality good()
 {
   registration::PairQuality quality;
@@ -92,11 +92,11 @@ TEST(PairEvidence, DoesNotPrizeOverlapBeyondAThird)
 
 TEST(PairEvidence, TellsPrintThatAgreesFromOtherAndFromNone)
 {
-  const auto of_print = [](const registration::PairQuality& quality)
+  const auto of_texture = [](const registration::PairQuality& quality)
   {
     const FeatureVector values = contributions(quality);
     double sum = 0;
-    for (const Feature feature : { Feature::PRINT, Feature::COLOR, Feature::EDGES })
+    for (const Feature feature : { Feature::TEXTURE, Feature::COLOR, Feature::EDGES })
       sum += values[static_cast<std::size_t>(feature)];
     return sum;
   };
@@ -104,8 +104,8 @@ TEST(PairEvidence, TellsPrintThatAgreesFromOtherAndFromNone)
   other.color_agreement = other.edge_agreement = 0;
   plain.texture = plain.edge_strength = 0;
   relit.color_agreement = 0.4;
-  EXPECT_NEAR(of_print(plain), 0, 1e-9);
-  EXPECT_GT(of_print(good()), of_print(other) + 2);
+  EXPECT_NEAR(of_texture(plain), 0, 1e-9);
+  EXPECT_GT(of_texture(good()), of_texture(other) + 2);
   EXPECT_LT(valueOf(Feature::COLOR, relit), valueOf(Feature::COLOR, good()));
   relit.light_variance = 0.02;
   EXPECT_GT(valueOf(Feature::COLOR, relit), valueOf(Feature::COLOR, good())) << "as much as light explains";
@@ -150,7 +150,7 @@ TEST(PairEvidence, HasKnownValuesOfPrint)
   quality.texture = 0.1;
   quality.edge_strength = 0.05;
   quality.color_agreement = quality.edge_agreement = 1;
-  EXPECT_NEAR(valueOf(Feature::PRINT, quality), std::log(0.02 / 0.0115), 1e-12);
+  EXPECT_NEAR(valueOf(Feature::TEXTURE, quality), std::log(0.02 / 0.0115), 1e-12);
   EXPECT_NEAR(valueOf(Feature::COLOR, quality), std::log(2), 1e-12);
   EXPECT_NEAR(valueOf(Feature::EDGES, quality), std::log(2), 1e-12);
   quality.color_agreement = quality.edge_agreement = 0;
@@ -201,7 +201,7 @@ TEST(PairEvidence, OddsOnlyRiseAsAPoseFitsBetter)
   registration::PairQuality opposite = good();
   opposite.color_agreement = opposite.edge_agreement = -1;
   expectRising(sweep(&registration::PairQuality::light_variance, 0, 0.1, opposite), "light");
-  expectRising(sweep(&registration::PairQuality::texture, 1, 0, opposite), "print that disagrees");
+  expectRising(sweep(&registration::PairQuality::texture, 1, 0, opposite), "texture that disagrees");
   expectRising(sweep(&registration::PairQuality::edge_strength, 1, 0, opposite), "slopes that disagree");
   expectRising(sweep(&registration::PairQuality::edge_strength, 0, 1), "slopes that agree");
   registration::PairQuality off = good();
@@ -229,10 +229,10 @@ TEST(PairEvidence, SaysNotTurnedUpToHalfWayBetween15And30Degrees)
   for (const auto& [degrees, stayed] : { std::pair(0, true), { 15, true }, { 22, true }, { 23, false }, { 90, false } })
   {
     quality.turn_rad = degrees * M_PI / 180;
-    EXPECT_EQ(saysNotTurned(quality), stayed) << degrees;
+    EXPECT_EQ(impliesNotTurned(quality), stayed) << degrees;
   }
   quality.turn_rad = -1;
-  EXPECT_FALSE(saysNotTurned(quality)) << "not known";
+  EXPECT_FALSE(impliesNotTurned(quality)) << "not known";
 }
 
 TEST(PairEvidence, OfDegenerateFiguresIsFinite)

@@ -47,7 +47,7 @@ void makeSession(const std::string& folder, const std::string& id, const std::st
   options.frame.noise_model = noise_model;
   pipeline::recordSession(*source, session, store.get(), options, control);
   require("refinement", pipeline::refineSessionBy(*store, id, {}, control).status);
-  require("segmentation", pipeline::segmentSession(*store, id, std::nullopt, {}, control).status);
+  require("segmentation", pipeline::segmentStoredSession(*store, id, std::nullopt, {}, control).status);
 }
 
 /// A file appears under its own name only when it is whole, but another program may have put it there.

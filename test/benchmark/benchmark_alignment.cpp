@@ -171,7 +171,7 @@ std::vector<std::optional<alignment::DifferenceFeatures>> differencesFromFirst(
   return result;
 }
 
-PairRow alignSessions(const SessionRow& a, const SessionRow& b, const Arguments& arguments, Surfaces* surfaces)
+PairRow alignPairOf(const SessionRow& a, const SessionRow& b, const Arguments& arguments, Surfaces* surfaces)
 {
   PairRow row;
   row.a = a.id;
@@ -255,7 +255,7 @@ void run(const Arguments& arguments)
   std::vector<PairRow> pairs;
   for (const auto& [i, k] : pairsOf(sessions, arguments))
   {
-    pairs.push_back(alignSessions(sessions[i], sessions[k], arguments, &surfaces));
+    pairs.push_back(alignPairOf(sessions[i], sessions[k], arguments, &surfaces));
     std::cout << toTableRow(pairs.back()) << std::flush;
   }
   std::cout << "\n" << summaryText(sessions, pairs) << std::flush;

@@ -78,10 +78,11 @@ SessionCost measureSession(keyframes::SessionStore& tracked, std::size_t count)
   timed("bundle adjustment", [&] { return pipeline::refineSessionBy(*store, session.id, refinement, control).status; });
   refinement.method = pipeline::RefinementMethod::MULTI_VIEW_ICP;
   timed("multi-view ICP", [&] { return pipeline::refineSessionBy(*store, session.id, refinement, control).status; });
-  timed("segment", [&] { return pipeline::segmentSession(*store, session.id, std::nullopt, {}, control).status; });
+  timed("segment",
+        [&] { return pipeline::segmentStoredSession(*store, session.id, std::nullopt, {}, control).status; });
   pipeline::BuildOptions options;
   options.make_report = false;
-  const alignment::AlignmentResult aligned = pipeline::alignSessions(*store, { session.id }, {}, control);
+  const alignment::AlignmentResult aligned = pipeline::alignStoredSessions(*store, { session.id }, {}, control);
   const pipeline::BuildReport built =
       pipeline::buildObject(*store, database, "object", "", aligned.placements, options, control);
   require(built.status);

@@ -76,9 +76,9 @@ Model makeModel(const std::string& recording, const Arguments& arguments)
     keyframes::Session session;
     session.id = id;
     pipeline::recordSession(*source, session, store.get(), {}, control);
-    throwUnlessOk(pipeline::segmentSession(*store, id, std::nullopt, {}, control).status);
+    throwUnlessOk(pipeline::segmentStoredSession(*store, id, std::nullopt, {}, control).status);
   }
-  const bundle_adjustment::BundleAdjustmentResult refined = pipeline::refineSession(*store, id, {}, control);
+  const bundle_adjustment::BundleAdjustmentResult refined = pipeline::refineStoredSession(*store, id, {}, control);
   throwUnlessOk(refined.status);
   Model model;
   model.color_offset_px = refined.color_offset_px;

@@ -23,7 +23,8 @@ Refined refineRun(const Run& run, const RunOptions& options)
   bundle_adjustment::BundleAdjustmentOptions bundle;
   bundle.seed = options.seed;
   base::JobControl control;
-  const bundle_adjustment::BundleAdjustmentResult result = pipeline::refineSession(*store, session.id, bundle, control);
+  const bundle_adjustment::BundleAdjustmentResult result =
+      pipeline::refineStoredSession(*store, session.id, bundle, control);
   refined.links = result.links.size();
   if (result.status.ok())
   {

@@ -7,7 +7,7 @@
 
 namespace object_modelling::multi_view_icp
 {
-/// Objects without print on a table without print that goes on beyond every view.
+/// Objects without texture on a table without texture that goes on beyond every view.
 inline test_support::SyntheticScene plainScene(const std::vector<test_support::SceneObject>& objects)
 {
   test_support::SyntheticScene scene;

@@ -17,7 +17,7 @@ namespace
 constexpr double OFF_M = 0.005, OFF_RAD = 0.035;  // 5 mm, 2 deg
 constexpr int VIEWS = 12;
 
-/// Three cans without print on a plain table, seen from all sides. (Not a box: views of one side and of the opposite
+/// Three cans without texture on a plain table, seen from all sides. (Not a box: views of one side and of the opposite
 /// one have nothing in common that says how wide it is.)
 class MultiViewIcp : public ::testing::Test
 {

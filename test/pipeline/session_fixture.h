@@ -50,7 +50,7 @@ protected:
   }
   int refinedObservationCount(const std::string& session_id = WALK)
   {
-    const bundle_adjustment::BundleAdjustmentResult result = refineSession(*store_, session_id, {}, control_);
+    const bundle_adjustment::BundleAdjustmentResult result = refineStoredSession(*store_, session_id, {}, control_);
     EXPECT_TRUE(result.status.ok()) << result.status.message;
     int count = 0;
     for (const bundle_adjustment::KeyframeResidual& residual : result.residuals)

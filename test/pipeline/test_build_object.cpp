@@ -30,11 +30,11 @@ TEST(WholeChain, FromARecordingToAnObject)
   MemorySource source(recording);
   const RecordReport recorded = recordSession(source, named("walk"), store.get(), {}, control);
   EXPECT_EQ(recorded.tracked_count, 60) << recorded.first_problem;
-  const bundle_adjustment::BundleAdjustmentResult refined = refineSession(*store, "walk", {}, control);
+  const bundle_adjustment::BundleAdjustmentResult refined = refineStoredSession(*store, "walk", {}, control);
   EXPECT_TRUE(refined.status.ok()) << refined.status.message;
-  const SegmentReport segmented = segmentSession(*store, "walk", std::nullopt, {}, control);
+  const SegmentReport segmented = segmentStoredSession(*store, "walk", std::nullopt, {}, control);
   ASSERT_TRUE(segmented.status.ok()) << segmented.status.message;
-  const alignment::AlignmentResult aligned = alignSessions(*store, { "walk" }, {}, control);
+  const alignment::AlignmentResult aligned = alignStoredSessions(*store, { "walk" }, {}, control);
   const BuildReport report = buildObject(*store, database, "carton", "A carton", aligned.placements, {}, control);
   ASSERT_TRUE(report.status.ok()) << report.status.message;
 

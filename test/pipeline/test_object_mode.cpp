@@ -16,7 +16,7 @@ double overlapRatio(const cv::Mat& a, const cv::Mat& b)
 }
 }  // namespace
 
-// The table's print stands still: whoever tracks it finds no motion at all.
+// The table's texture stands still: whoever tracks it finds no motion at all.
 TEST(ObjectMode, FollowsATurningObjectBySegmentation)
 {
   const Recording recording = turningBox(30, 1.2);
@@ -44,7 +44,7 @@ TEST(ObjectMode, FollowsATurningObjectBySegmentation)
   }
 
   // These masks are measurements: the stages after it keep them.
-  const SegmentReport segmented = segmentSession(*store, "turn", std::nullopt, {}, control);
+  const SegmentReport segmented = segmentStoredSession(*store, "turn", std::nullopt, {}, control);
   EXPECT_TRUE(segmented.status.ok()) << segmented.status.message;
   EXPECT_EQ(segmented.masked_count, report.keyframe_count);
   EXPECT_TRUE(segmented.support_plane_found);
@@ -53,7 +53,7 @@ TEST(ObjectMode, FollowsATurningObjectBySegmentation)
     EXPECT_EQ(cv::countNonZero(after[i].frame.object_mask != masks[i]), 0);
 }
 
-// Round table top that turns with the object on a table that stands still. The object is plain: only the print of the
+// Round table top that turns with the object on a table that stands still. The object is plain: only the texture of the
 // turntable tells how far it has turned.
 TEST(ObjectMode, TracksByTheTurntableTooAndKeepsItOutOfTheMasks)
 {
@@ -90,7 +90,7 @@ TEST(ObjectMode, TracksByTheTurntableTooAndKeepsItOutOfTheMasks)
   for (const std::string id : { "with", "earlier" })
   {
     const std::vector<rgbd::Keyframe> before = keyframes::loadKeyframes(*store, id);
-    const bundle_adjustment::BundleAdjustmentResult refined = refineSession(*store, id, {}, control);
+    const bundle_adjustment::BundleAdjustmentResult refined = refineStoredSession(*store, id, {}, control);
     ASSERT_TRUE(refined.status.ok()) << id << ": " << refined.status.message;
     const std::vector<rgbd::Keyframe> after = keyframes::loadKeyframes(*store, id);
     EXPECT_EQ(cv::countNonZero(after[0].frame.object_mask), cv::countNonZero(before[0].frame.object_mask)) << id;

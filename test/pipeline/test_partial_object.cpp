@@ -51,7 +51,7 @@ protected:
   {
     AlignOptions options;
     options.required = required;
-    return alignSessions(*store_, { BALL, "box" }, options, control_);
+    return alignStoredSessions(*store_, { BALL, "box" }, options, control_);
   }
   BuildReport buildFrom(const alignment::AlignmentResult& aligned)
   {

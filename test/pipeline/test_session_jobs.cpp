@@ -7,7 +7,7 @@ namespace object_modelling::pipeline
 {
 TEST_F(SessionJobs, SegmentWritesMasksAndSupportPlane)
 {
-  const SegmentReport report = segmentSession(*store_, WALK, std::nullopt, {}, control_);
+  const SegmentReport report = segmentStoredSession(*store_, WALK, std::nullopt, {}, control_);
   ASSERT_TRUE(report.status.ok()) << report.status.message;
   EXPECT_EQ(report.session_id, WALK);
   EXPECT_EQ(report.masked_count, report.keyframe_count);
@@ -34,10 +34,10 @@ TEST_F(SessionJobs, SegmentWritesMasksAndSupportPlane)
 TEST_F(SessionJobs, SegmentTakesTheObjectThatIsNamed)
 {
   const Eigen::Vector3d centre_session = recording_.T_object_cameras[0].inverse() * Eigen::Vector3d::Zero();
-  EXPECT_TRUE(segmentSession(*store_, WALK, centre_session, {}, control_).status.ok());
+  EXPECT_TRUE(segmentStoredSession(*store_, WALK, centre_session, {}, control_).status.ok());
   const std::string before = fingerprint(*store_, WALK);
   const Eigen::Vector3d nowhere_session(0, -5, 0);
-  const SegmentReport report = segmentSession(*store_, WALK, nowhere_session, {}, control_);
+  const SegmentReport report = segmentStoredSession(*store_, WALK, nowhere_session, {}, control_);
   EXPECT_EQ(report.status.code, StatusCode::NO_RESULT);
   EXPECT_NE(report.status.message, "");
   EXPECT_EQ(fingerprint(*store_, WALK), before);
@@ -49,22 +49,22 @@ TEST_F(SessionJobs, LeaveToOthersWhatTheyDoNotMake)
   keyframes::SessionChange meanwhile;
   meanwhile.object_id = "named_meanwhile";
   base::JobControl interrupted([&](const base::Progress&) { other->update(WALK, meanwhile); });
-  ASSERT_TRUE(segmentSession(*store_, WALK, std::nullopt, {}, interrupted).status.ok());
+  ASSERT_TRUE(segmentStoredSession(*store_, WALK, std::nullopt, {}, interrupted).status.ok());
   EXPECT_EQ(store_->session(WALK).object_id, "named_meanwhile");
   meanwhile.object_id = "named_again";
-  ASSERT_TRUE(refineSession(*store_, WALK, {}, interrupted).status.ok());
+  ASSERT_TRUE(refineStoredSession(*store_, WALK, {}, interrupted).status.ok());
   EXPECT_EQ(store_->session(WALK).object_id, "named_again");
   EXPECT_TRUE(store_->session(WALK).segmented.done());
 }
 
 TEST_F(SessionJobs, AlignPlacesOneWithoutLookingAtIt)
 {
-  const alignment::AlignmentResult one = alignSessions(*store_, { WALK }, {}, control_);
+  const alignment::AlignmentResult one = alignStoredSessions(*store_, { WALK }, {}, control_);
   EXPECT_TRUE(one.status.ok());
   ASSERT_EQ(one.placements.size(), 1u);
   EXPECT_EQ(one.placements[0].session_id, WALK);
   EXPECT_EQ(one.placements[0].T_reference_session.matrix(), Eigen::Isometry3d::Identity().matrix());
-  EXPECT_EQ(alignSessions(*store_, {}, {}, control_).status.code, StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(alignStoredSessions(*store_, {}, {}, control_).status.code, StatusCode::INVALID_ARGUMENT);
 }
 
 /// The rendered sessions differ in their walks alone.
@@ -81,7 +81,7 @@ TEST_F(SessionJobs, AlignPlacesSessionsOfTheSameObjectAndKeepsWhatItFound)
   storeRenderedSession(*store_, "one", 12);
   storeRenderedSession(*store_, "two", 9);
   const std::string before = fingerprint(*store_, "one") + fingerprint(*store_, "two");
-  const alignment::AlignmentResult two = alignSessions(*store_, { "one", "two" }, samePose(), control_);
+  const alignment::AlignmentResult two = alignStoredSessions(*store_, { "one", "two" }, samePose(), control_);
   ASSERT_TRUE(two.status.ok()) << two.status.message;
   ASSERT_EQ(two.placements.size(), 2u);
   EXPECT_TRUE(two.placements[1].T_reference_session.isApprox(Eigen::Isometry3d::Identity(), 0.005))
@@ -94,7 +94,7 @@ TEST_F(SessionJobs, AlignPlacesSessionsOfTheSameObjectAndKeepsWhatItFound)
   EXPECT_TRUE(known.accepted);
   EXPECT_EQ(known.best()->T_a_b.matrix(), two.edges[0].best()->T_a_b.matrix());
   store_->updateAlignments({ { "one", "two", "no: yaml: [" } });
-  EXPECT_TRUE(alignSessions(*store_, { "one", "two" }, samePose(), control_).status.ok())
+  EXPECT_TRUE(alignStoredSessions(*store_, { "one", "two" }, samePose(), control_).status.ok())
       << "what cannot be read is found anew";
 }
 
@@ -104,29 +104,29 @@ TEST_F(SessionJobs, APersonDecidesOnAlignments)
   storeRenderedSession(*store_, "two", 9);
   EXPECT_EQ(statusOf([&] { acceptAlignment(*store_, "one", "two", 0); }).code, StatusCode::FAILED_PRECONDITION);
   EXPECT_EQ(statusOf([&] { acceptAlignment(*store_, "one", "missing", 0); }).code, StatusCode::NOT_FOUND);
-  ASSERT_TRUE(alignSessions(*store_, { "one", "two" }, samePose(), control_).status.ok());
+  ASSERT_TRUE(alignStoredSessions(*store_, { "one", "two" }, samePose(), control_).status.ok());
 
   refuseAlignment(*store_, "two", "one");
-  const alignment::AlignmentResult refused = alignSessions(*store_, { "one", "two" }, samePose(), control_);
+  const alignment::AlignmentResult refused = alignStoredSessions(*store_, { "one", "two" }, samePose(), control_);
   EXPECT_EQ(refused.status.code, StatusCode::NO_RESULT);
   EXPECT_NE(refused.status.message.find("refused by a person"), std::string::npos) << refused.status.message;
   AlignOptions anew = samePose();
   anew.use_known = false;
-  EXPECT_EQ(alignSessions(*store_, { "one", "two" }, anew, control_).status.code, StatusCode::NO_RESULT);
+  EXPECT_EQ(alignStoredSessions(*store_, { "one", "two" }, anew, control_).status.code, StatusCode::NO_RESULT);
 
   EXPECT_EQ(statusOf([&] { acceptAlignment(*store_, "one", "two", 90); }).code, StatusCode::INVALID_ARGUMENT);
   acceptAlignment(*store_, "one", "two", 0);
-  EXPECT_TRUE(alignSessions(*store_, { "one", "two" }, samePose(), control_).status.ok());
+  EXPECT_TRUE(alignStoredSessions(*store_, { "one", "two" }, samePose(), control_).status.ok());
   forgetAlignment(*store_, "one", "two");
   EXPECT_TRUE(knownAlignment(*store_, "one", "two").candidates.empty());
-  EXPECT_TRUE(alignSessions(*store_, { "one", "two" }, samePose(), control_).status.ok());
+  EXPECT_TRUE(alignStoredSessions(*store_, { "one", "two" }, samePose(), control_).status.ok());
   EXPECT_EQ(knownAlignment(*store_, "one", "two").decision, alignment::Decision::AUTOMATIC);
 }
 
 TEST_F(SessionJobs, AlignRefusesASessionWithoutMasks)
 {
   storeRenderedSession(*store_, "one", 9);
-  const base::Status status = statusOf([this] { alignSessions(*store_, { "one", WALK }, {}, control_); });
+  const base::Status status = statusOf([this] { alignStoredSessions(*store_, { "one", WALK }, {}, control_); });
   EXPECT_EQ(status.code, StatusCode::FAILED_PRECONDITION) << status.message;
   EXPECT_NE(status.message.find(WALK), std::string::npos) << status.message;
 }
@@ -135,8 +135,8 @@ TEST_F(SessionJobs, SayWhatIsMissing)
 {
   const std::vector<std::pair<std::string, std::function<base::Status(const std::string&)>>> jobs = {
     { "segment",
-      [this](const std::string& id) { return segmentSession(*store_, id, std::nullopt, {}, control_).status; } },
-    { "refine", [this](const std::string& id) { return refineSession(*store_, id, {}, control_).status; } },
+      [this](const std::string& id) { return segmentStoredSession(*store_, id, std::nullopt, {}, control_).status; } },
+    { "refine", [this](const std::string& id) { return refineStoredSession(*store_, id, {}, control_).status; } },
   };
   store_->createSession(named("empty"));
   for (const auto& [name, job] : jobs)
@@ -150,7 +150,7 @@ TEST_F(SessionJobs, SayWhatIsMissing)
   }
   EXPECT_EQ(statusOf(
                 [this] {
-                  alignSessions(*store_, { WALK, "unknown" }, {}, control_);
+                  alignStoredSessions(*store_, { WALK, "unknown" }, {}, control_);
                 })
                 .code,
             StatusCode::NOT_FOUND);
@@ -173,9 +173,9 @@ TEST_F(SessionJobs, LeaveTheSessionAsItWasWhenCancelled)
         });
     hand = &control;
     if (stage == "segment")
-      EXPECT_THROW(segmentSession(*store_, WALK, std::nullopt, {}, control), base::Cancelled) << stage;
+      EXPECT_THROW(segmentStoredSession(*store_, WALK, std::nullopt, {}, control), base::Cancelled) << stage;
     else
-      EXPECT_THROW(refineSession(*store_, WALK, {}, control), base::Cancelled) << stage;
+      EXPECT_THROW(refineStoredSession(*store_, WALK, {}, control), base::Cancelled) << stage;
     EXPECT_TRUE(reached) << stage;
     EXPECT_EQ(fingerprint(*store_, WALK), before) << stage;
   }

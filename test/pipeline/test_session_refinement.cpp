@@ -15,7 +15,7 @@ TEST_F(SessionJobs, RefineWritesThePosesBack)
   store_->update(WALK, keyframes::SessionChange::ofPoses(moved));
   EXPECT_GT(worstPosition_m(), 0.006);
 
-  const bundle_adjustment::BundleAdjustmentResult result = refineSession(*store_, WALK, {}, control_);
+  const bundle_adjustment::BundleAdjustmentResult result = refineStoredSession(*store_, WALK, {}, control_);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_LT(result.final_cost, result.initial_cost);
   EXPECT_LT(worstPosition_m(), 0.004);
@@ -36,19 +36,19 @@ TEST_F(SessionJobs, EachStageLeavesItsMark)
   EXPECT_EQ(store_->session(WALK).refined.by, "multi_view_icp");
   EXPECT_NE(store_->session(WALK).refined.options.find("start_error_m: 0.03"), std::string::npos)
       << store_->session(WALK).refined.options;
-  ASSERT_TRUE(refineSession(*store_, WALK, {}, control_).status.ok());
+  ASSERT_TRUE(refineStoredSession(*store_, WALK, {}, control_).status.ok());
   EXPECT_EQ(store_->session(WALK).refined.by, "bundle_adjustment");
-  ASSERT_TRUE(segmentSession(*store_, WALK, std::nullopt, {}, control_).status.ok());
+  ASSERT_TRUE(segmentStoredSession(*store_, WALK, std::nullopt, {}, control_).status.ok());
   EXPECT_EQ(store_->session(WALK).segmented.by, keyframes::stage_mark::AUTOMATIC);
   const Eigen::Vector3d centre_session = recording_.T_object_cameras[0].inverse() * Eigen::Vector3d::Zero();
-  ASSERT_TRUE(segmentSession(*store_, WALK, centre_session, {}, control_).status.ok());
+  ASSERT_TRUE(segmentStoredSession(*store_, WALK, centre_session, {}, control_).status.ok());
   EXPECT_EQ(store_->session(WALK).segmented.by, keyframes::stage_mark::BY_HAND);
   EXPECT_NE(store_->session(WALK).segmented.options.find("seed_point_session_m: ["), std::string::npos);
 }
 
 TEST_F(SessionJobs, AReportGoesWithThePosesThatItIsOf)
 {
-  ASSERT_TRUE(refineSession(*store_, WALK, {}, control_).status.ok());
+  ASSERT_TRUE(refineStoredSession(*store_, WALK, {}, control_).status.ok());
   EXPECT_NE(store_->session(WALK).refinement_report, "");
   RefinementOptions surfaces_alone;
   surfaces_alone.method = RefinementMethod::MULTI_VIEW_ICP;
@@ -58,7 +58,7 @@ TEST_F(SessionJobs, AReportGoesWithThePosesThatItIsOf)
 
 TEST_F(SessionJobs, RefineUsesTheObjectAloneWhereTheRestMoves)
 {
-  ASSERT_TRUE(segmentSession(*store_, WALK, std::nullopt, {}, control_).status.ok());
+  ASSERT_TRUE(segmentStoredSession(*store_, WALK, std::nullopt, {}, control_).status.ok());
   const int whole_scene = refinedObservationCount();
   keyframes::Session session = store_->session(WALK);
   session.reference_is_object = true;
@@ -70,7 +70,7 @@ TEST_F(SessionJobs, RefineUsesTheObjectAloneWhereTheRestMoves)
 
 TEST_F(SessionJobs, RefineUsesWhatMovedWithTheObject)
 {
-  ASSERT_TRUE(segmentSession(*store_, WALK, std::nullopt, {}, control_).status.ok());
+  ASSERT_TRUE(segmentStoredSession(*store_, WALK, std::nullopt, {}, control_).status.ok());
   const auto observationsBy = [&](const std::string& id, bool all_moves)
   {
     keyframes::Session session = named(id);
@@ -95,7 +95,7 @@ TEST_F(SessionJobs, RefineLeavesPosesThatNothingLinks)
   const std::string before = fingerprint(*store_, "unlinked");
   bundle_adjustment::BundleAdjustmentOptions options;
   options.link_keyframes = false;
-  EXPECT_EQ(refineSession(*store_, "unlinked", options, control_).status.code, StatusCode::NO_RESULT);
+  EXPECT_EQ(refineStoredSession(*store_, "unlinked", options, control_).status.code, StatusCode::NO_RESULT);
   EXPECT_EQ(fingerprint(*store_, "unlinked"), before);
 }
 

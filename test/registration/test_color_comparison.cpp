@@ -37,10 +37,10 @@ ColorOf stripes(float strength, float phase_rad)
 }
 
 /// The light of a table that reflects its colour from below, or from where that is once the object is turned over.
-ColorOf under(const Eigen::Vector3f& light, const ColorOf& print)
+ColorOf under(const Eigen::Vector3f& light, const ColorOf& texture)
 {
   return [=](const Eigen::Vector3f& n)
-  { return Eigen::Vector3f(print(n) + light.dot(n) * Eigen::Vector3f(0.15F, -0.1F, 0.1F)); };
+  { return Eigen::Vector3f(texture(n) + light.dot(n) * Eigen::Vector3f(0.15F, -0.1F, 0.1F)); };
 }
 
 /// What is left of the differences once light is made up for.
@@ -113,8 +113,8 @@ TEST(ColorComparison, ComparesOnAFlatSurfaceToo)
   ColorComparison comparison;
   for (int i = 0; i < 500; ++i)
   {
-    const float print = 0.2F * std::sin(0.37F * static_cast<float>(i));
-    comparison.add({ print, 0, 0 }, { print + 0.1F, 0.05F, 0 }, Eigen::Vector3f::UnitX());
+    const float texture = 0.2F * std::sin(0.37F * static_cast<float>(i));
+    comparison.add({ texture, 0, 0 }, { texture + 0.1F, 0.05F, 0 }, Eigen::Vector3f::UnitX());
   }
   EXPECT_NEAR(comparison.result().agreement, 1, 1e-4);
   EXPECT_NEAR(comparison.result().texture, 0.2 / std::sqrt(2), 0.005);

@@ -16,7 +16,7 @@ namespace
 const Eigen::Vector3f X = Eigen::Vector3f::UnitX(), Y = Eigen::Vector3f::UnitY(), Z = Eigen::Vector3f::UnitZ();
 constexpr double DEGREE_RAD = M_PI / 180, MM_M = 1e-3;
 
-Eigen::Vector3f print(const Eigen::Vector3f& p)
+Eigen::Vector3f texture(const Eigen::Vector3f& p)
 {
   return { 0.3F * std::sin(160 * p.x() + 90 * p.y()), 0.3F * std::sin(140 * p.y() - 80 * p.z()),
            0.2F * std::sin(150 * p.z() + 70 * p.x()) };
@@ -31,17 +31,17 @@ PartialModel boxSides(bool upper, float shift_m, unsigned seed)
   const Eigen::Vector3f low = -0.5F * Eigen::Vector3f(WIDTH_M, DEPTH_M, HEIGHT_M), high = -low;
   const auto from = [&](float x, float y, float z, const Eigen::Vector3f& u, const Eigen::Vector3f& v)
   { return Eigen::Vector3f(Eigen::Vector3f(x, y, z) + shift_m * (u + v)); };
-  addPatch(from(high.x(), low.y(), low.z(), Y, Z), Y, Z, ALONG, UP, print, &part);
-  addPatch(from(low.x(), high.y(), low.z(), Z, X), Z, X, UP, ACROSS, print, &part);
+  addPatch(from(high.x(), low.y(), low.z(), Y, Z), Y, Z, ALONG, UP, texture, &part);
+  addPatch(from(low.x(), high.y(), low.z(), Z, X), Z, X, UP, ACROSS, texture, &part);
   if (upper)
   {
-    addPatch(from(low.x(), low.y(), high.z(), X, Y), X, Y, ACROSS, ALONG, print, &part);
-    addPatch(from(low.x(), low.y(), low.z(), Z, Y), Z, Y, UP, ALONG, print, &part);
+    addPatch(from(low.x(), low.y(), high.z(), X, Y), X, Y, ACROSS, ALONG, texture, &part);
+    addPatch(from(low.x(), low.y(), low.z(), Z, Y), Z, Y, UP, ALONG, texture, &part);
   }
   else
   {
-    addPatch(from(low.x(), low.y(), low.z(), Y, X), Y, X, ALONG, ACROSS, print, &part);
-    addPatch(from(low.x(), low.y(), low.z(), X, Z), X, Z, ACROSS, UP, print, &part);
+    addPatch(from(low.x(), low.y(), low.z(), Y, X), Y, X, ALONG, ACROSS, texture, &part);
+    addPatch(from(low.x(), low.y(), low.z(), X, Z), X, Z, ACROSS, UP, texture, &part);
   }
   // Of a fused cloud.
   std::mt19937 random(seed);
@@ -134,8 +134,8 @@ TEST_F(PairIcp, ReachesFarByFewPoints)
   {
     const Eigen::Isometry3f start = disturbed(T_a_b_, centre_b_, 10 * MM_M, 8 * DEGREE_RAD, seed);
     const std::string what = "start " + std::to_string(seed);
-    expectNear(alignSurfaces(a_, same_sides, start, coarse), T_a_b_, centre_b_, 2, 2, what);
-    expectNear(alignSurfaces(same_sides, a_, start.inverse(), coarse), T_a_b_.inverse(), centre_a_, 2, 2,
+    expectNear(alignByIcp(a_, same_sides, start, coarse), T_a_b_, centre_b_, 2, 2, what);
+    expectNear(alignByIcp(same_sides, a_, start.inverse(), coarse), T_a_b_.inverse(), centre_a_, 2, 2,
                what + ", a on b");
   }
 }
@@ -164,7 +164,7 @@ TEST(PairIcpFreedom, APlainPlateStaysWhereNothingHoldsIt)
   const PartialModel model = plate(plain);
   const MatchedSurface part(model, 1);
   const Eigen::Isometry3f start = pose({ 0.003F, -0.002F, 0.002F }, 0.03F, Z);
-  const Eigen::Isometry3f T = alignSurfaces(part, part, start, fine(ColorDetail::BLURRED));
+  const Eigen::Isometry3f T = alignByIcp(part, part, start, fine(ColorDetail::BLURRED));
   EXPECT_NEAR(T.translation().x(), 0.003, 2e-4);
   EXPECT_NEAR(T.translation().y(), -0.002, 2e-4);
   EXPECT_NEAR(T.translation().z(), 0, 2e-5);
@@ -173,25 +173,25 @@ TEST(PairIcpFreedom, APlainPlateStaysWhereNothingHoldsIt)
 
 TEST(PairIcpFreedom, PrintHoldsAPlate)
 {
-  const PartialModel model = plate(print);
+  const PartialModel model = plate(texture);
   const MatchedSurface part(model, 1);
   for (const ColorDetail detail : { ColorDetail::BLURRED, ColorDetail::SHARP })
     for (const float sign : { 1.0F, -1.0F })
     {
       const Eigen::Isometry3f start = pose({ sign * 0.003F, sign * -0.002F, 0.002F }, sign * 0.03F, Z);
-      const Eigen::Isometry3f T = alignSurfaces(part, part, start, fine(detail));
-      expectNear(T, Eigen::Isometry3f::Identity(), Eigen::Vector3f::Zero(), 0.1, 0.1, "print");
+      const Eigen::Isometry3f T = alignByIcp(part, part, start, fine(detail));
+      expectNear(T, Eigen::Isometry3f::Identity(), Eigen::Vector3f::Zero(), 0.1, 0.1, "texture");
     }
-  const Eigen::Isometry3f without = alignSurfaces(part, part, pose({ 0.003F, 0, 0 }, 0, Z), fine(ColorDetail::NONE));
+  const Eigen::Isometry3f without = alignByIcp(part, part, pose({ 0.003F, 0, 0 }, 0, Z), fine(ColorDetail::NONE));
   EXPECT_NEAR(without.translation().x(), 0.003, 2e-4) << "not asked for";
 }
 
 TEST(PairIcpFreedom, LeavesAPoseThatBringsNothingTogether)
 {
-  const PartialModel model = plate(print);
+  const PartialModel model = plate(texture);
   const MatchedSurface part(model, 1);
   PartialModel few_model = madePart();
-  addPatch({ 0, 0, 0 }, X, Y, 3, 3, print, &few_model);
+  addPatch({ 0, 0, 0 }, X, Y, 3, 3, texture, &few_model);
   const MatchedSurface few(few_model, 1);
   const Eigen::Isometry3f away = pose({ 0, 0, 0.3F }, 0.1F, X), near = pose({ 0, 0, 0.001F }, 0, X);
   const Eigen::Isometry3f turned = pose({ 0, 0, 0 }, static_cast<float>(M_PI), X);
@@ -199,13 +199,13 @@ TEST(PairIcpFreedom, LeavesAPoseThatBringsNothingTogether)
   {
     PairIcpOptions options = fine(ColorDetail::BLURRED);
     options.coarse = coarse;
-    EXPECT_EQ(alignSurfaces(part, part, away, options).matrix(), away.matrix()) << "too far";
-    EXPECT_EQ(alignSurfaces(part, part, turned, options).matrix(), turned.matrix()) << "facing away";
-    EXPECT_EQ(alignSurfaces(few, few, near, options).matrix(), near.matrix()) << "fewer than 20 pairs";
+    EXPECT_EQ(alignByIcp(part, part, away, options).matrix(), away.matrix()) << "too far";
+    EXPECT_EQ(alignByIcp(part, part, turned, options).matrix(), turned.matrix()) << "facing away";
+    EXPECT_EQ(alignByIcp(few, few, near, options).matrix(), near.matrix()) << "fewer than 20 pairs";
     const PartialModel none_model = madePart();
     const MatchedSurface none(none_model, 1);
-    EXPECT_EQ(alignSurfaces(none, part, near, options).matrix(), near.matrix()) << "no points";
-    EXPECT_EQ(alignSurfaces(part, none, near, options).matrix(), near.matrix()) << "no points";
+    EXPECT_EQ(alignByIcp(none, part, near, options).matrix(), near.matrix()) << "no points";
+    EXPECT_EQ(alignByIcp(part, none, near, options).matrix(), near.matrix()) << "no points";
   }
 }
 

@@ -172,15 +172,15 @@ TEST(PairMeasure, SurfacesThatFaceAwayAreNotTheSame)
 /// Blots of three channels, 12 mm across, on a corner of three faces: seen, with features, standing on its table.
 PartialModel printedCorner()
 {
-  const ColorAt print = [](const Eigen::Vector3f& p)
+  const ColorAt texture = [](const Eigen::Vector3f& p)
   {
     return Eigen::Vector3f(0.3F * std::sin(260 * p.x() + 90 * p.y()), 0.2F * std::sin(240 * p.y() - 80 * p.z()),
                            0.1F * std::sin(250 * p.z() + 120 * p.x()));
   };
   PartialModel part = madePart();
-  addPatch({ -HALF_M, -HALF_M, HALF_M }, X, Y, SIDE, SIDE, print, &part);
-  addPatch({ HALF_M, -HALF_M, -HALF_M }, Y, Z, SIDE, SIDE, print, &part);
-  addPatch({ -HALF_M, HALF_M, -HALF_M }, Z, X, SIDE, SIDE, print, &part);
+  addPatch({ -HALF_M, -HALF_M, HALF_M }, X, Y, SIDE, SIDE, texture, &part);
+  addPatch({ HALF_M, -HALF_M, -HALF_M }, Y, Z, SIDE, SIDE, texture, &part);
+  addPatch({ -HALF_M, HALF_M, -HALF_M }, Z, X, SIDE, SIDE, texture, &part);
   part.support_plane = geometry::Plane{ Eigen::Vector3d::UnitZ(), HALF_M + 0.003 };
   part.spacing_m *= 1.05;  // no neighbour lies at the rim of what is averaged over
   part.views = { viewAlongZ(1.0005F), viewAlongZ(1.0045F), viewAlongZ(0.9705F) };
@@ -236,7 +236,7 @@ TEST(PairMeasure, ColoursAndTheirSlopesAgreeOrAreOpposite)
   EXPECT_NEAR(same.edge_agreement, 1, 1e-5);
   EXPECT_NEAR(opposite.color_agreement, -1, 1e-5);
   EXPECT_NEAR(opposite.edge_agreement, -1, 1e-5);
-  // Fainter print is the same print to the colours. To the slopes it is less alike: 2 * 0.5 / (1 + 0.5^2).
+  // Fainter texture is the same texture to the colours. To the slopes it is less alike: 2 * 0.5 / (1 + 0.5^2).
   const PairQuality fainter = measure(corner, times(0.5F));
   EXPECT_NEAR(fainter.color_agreement, 1, 1e-5);
   EXPECT_NEAR(fainter.edge_agreement, 0.8, 1e-5);

@@ -66,7 +66,7 @@ TEST(SupportContact, holdsACanAlongItsAxis)
   {
     const PartialModel can = standingCan(with_plane);
     const MatchedSurface part(can, 1);
-    const Eigen::Isometry3f T = alignSurfaces(part, part, upsideDown(0.004F), icp);
+    const Eigen::Isometry3f T = alignByIcp(part, part, upsideDown(0.004F), icp);
     EXPECT_NEAR(T.translation().z(), HEIGHT_M + (with_plane ? 0 : 0.004F), 5e-4) << with_plane;
     EXPECT_LT(T.translation().head<2>().norm(), 5e-4);
   }
@@ -82,7 +82,7 @@ TEST(SupportContact, doesNotBendWhatSurfacesHold)
   icp.coarse = false;
   icp.gate_m = 0.005;
   icp.last_gate_m = 0.003;
-  const Eigen::Isometry3f T = alignSurfaces(part, part, Eigen::Isometry3f::Identity(), icp);
+  const Eigen::Isometry3f T = alignByIcp(part, part, Eigen::Isometry3f::Identity(), icp);
   EXPECT_LT(T.translation().norm(), 2e-4);
 }
 }  // namespace

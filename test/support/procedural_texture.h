@@ -12,7 +12,7 @@ struct Texture
   Eigen::Vector3f color_bgr{ 170, 170, 170 };  ///< mean colour, 0 to 255
   float contrast = 0.6f;                       ///< 0: plain; 1: from black to twice the mean colour
   float cell_m = 0.02f;                        ///< side of the larger patches; the finer ones have 0.37 of it
-  std::uint32_t seed = 1;                      ///< another seed, another print
+  std::uint32_t seed = 1;                      ///< another seed, another texture
 };
 
 inline Texture plainTexture(const Eigen::Vector3f& color_bgr = { 170, 170, 170 })

@@ -100,7 +100,7 @@ TEST(LightLevelling, LeavesNoSeamsInTheTexture)
   const TextureResult without = textureMesh(mesh, ofOneSession(views), {}, control);
   const std::vector<rgbd::View> lit = roundTheBox(boxScene(), 16);
   const TextureResult truth = textureMesh(mesh, lit, {}, control);
-  // What is left of light is smooth: steps are those of the print.
+  // What is left of light is smooth: steps are those of the texture.
   const auto roughness = [](const TextureResult& result)
   {
     cv::Mat gray, dx;

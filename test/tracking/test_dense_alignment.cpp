@@ -184,7 +184,7 @@ TEST(DenseAlignment, APlainPlaneLeavesThreeDirectionsFree)
   const geometry::Vector6d weak = Eigen::SelfAdjointEigenSolver<geometry::Matrix6d>(plane.equations.A).eigenvalues();
   EXPECT_LT(weak(2), 0.01 * weak(3)) << weak.transpose();
   EXPECT_FALSE(registration::plausible(plane)) << registration::describe(plane);
-  // Things on it fix the rest, with print and without.
+  // Things on it fix the rest, with texture and without.
   for (const test_support::SyntheticScene& scene : { test_support::boxOnTable(), plainScene() })
   {
     const View b(renderUnmasked(scene, poseA(), 0));
@@ -231,7 +231,7 @@ TEST(DenseAlignment, NothingToGoByIsNeverPlausible)
   hopeless.push_back(frame);
   frame.gray = cv::Mat(good.gray.size(), CV_8UC1, cv::Scalar(128));
   hopeless.push_back(frame);
-  frame = good;  // depth without print or shade
+  frame = good;  // depth without texture or shade
   frame.gray = cv::Mat(good.gray.size(), CV_8UC1, cv::Scalar(128));
   hopeless.push_back(frame);
   frame = good;  // nothing belongs to the object

@@ -8,7 +8,8 @@
 
 #include "tracking_scene.h"
 
-// Scenes without print: what tracking has is shape and shade. And where even these do not tell the motion, a robot may.
+// Scenes without texture: what tracking has is shape and shade. And where even these do not tell the motion, a robot
+// may.
 namespace object_modelling::tracking
 {
 namespace

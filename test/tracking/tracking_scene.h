@@ -20,7 +20,7 @@ inline test_support::SensorNoise sensorNoise(int index)
   return noise;
 }
 
-/// No print anywhere: a box and a can on a table, which look different from every side.
+/// No texture anywhere: a box and a can on a table, which look different from every side.
 inline test_support::SyntheticScene plainScene()
 {
   test_support::SyntheticScene scene = test_support::boxOnTable();

@@ -15,7 +15,7 @@ enum class Feature
   THROUGH,   ///< the same as a share: a handle that is elsewhere is few of the points, but all of them
   FIT,       ///< distance of the surfaces, against how rough they are by themselves
   CONTACT,   ///< gap between either and what the other stood on, against its noise
-  PRINT,     ///< how much print there is to agree: where it does not, that speaks against the pose
+  TEXTURE,   ///< how much texture there is to agree: where it does not, that speaks against the pose
   COLOR,     ///< share of the variance of the colours that both have alike, light that changed taken off
   EDGES,     ///< the same of the slopes of the colours
   FEATURES,  ///< matches of local features
@@ -34,7 +34,7 @@ FeatureVector featuresOf(const registration::PairQuality& quality);
 double turnPrior(const registration::PairQuality& quality, double same_pose_probability);
 
 /// Whether, by a pose, the object lay in both sessions as in the other, or nearly so.
-bool saysNotTurned(const registration::PairQuality& quality);
+bool impliesNotTurned(const registration::PairQuality& quality);
 
 /// Logarithmic odds of a pose against that none is right.
 double logOdds(const registration::PairQuality& quality, double same_pose_probability);

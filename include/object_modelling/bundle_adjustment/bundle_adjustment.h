@@ -25,7 +25,7 @@ struct BundleAdjustmentOptions
   bool calibrate_intrinsics = false;
   bool calibrate_depth_ratio = false;
   bool calibrate_depth_offset = false;
-  bool calibrate_depth_distortion = false;  ///< wide scenes with print tell it; a plain one bends with it
+  bool calibrate_depth_distortion = false;  ///< wide scenes with texture tell it; a plain one bends with it
   bool object_only = false;                 ///< only observations on the object mask (turntable, object in motion)
   bool calibratesSensor() const
   {

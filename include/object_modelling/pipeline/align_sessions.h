@@ -34,13 +34,14 @@ std::vector<registration::PartialModel> loadParts(keyframes::SessionStore& store
 
 /// Places the sessions of one object relative to the first that fits another (the model frame is set when the object is
 /// built), and keeps what was found for every pair, refused ones too. Where it cannot be kept, the message says so.
-alignment::AlignmentResult alignParts(keyframes::SessionStore& store,
-                                      const std::vector<registration::PartialModel>& parts, const AlignOptions& options,
-                                      base::JobControl& control);
+alignment::AlignmentResult alignStoredParts(keyframes::SessionStore& store,
+                                            const std::vector<registration::PartialModel>& parts,
+                                            const AlignOptions& options, base::JobControl& control);
 
 /// Both. One session needs no alignment, and nothing of it is looked at.
-alignment::AlignmentResult alignSessions(keyframes::SessionStore& store, const std::vector<std::string>& session_ids,
-                                         const AlignOptions& options, base::JobControl& control);
+alignment::AlignmentResult alignStoredSessions(keyframes::SessionStore& store,
+                                               const std::vector<std::string>& session_ids, const AlignOptions& options,
+                                               base::JobControl& control);
 
 /// What is kept of two sessions, in either order; an edge without candidates where nothing is.
 alignment::AlignmentEdge knownAlignment(keyframes::SessionStore& store, const std::string& session_a,

@@ -24,13 +24,14 @@ struct SegmentReport
 
 /// Masks for all keyframes, and the support plane. `seed_point_session` names the object; without one it is chosen
 /// automatically.
-SegmentReport segmentSession(keyframes::SessionStore& store, const std::string& session_id,
-                             const std::optional<Eigen::Vector3d>& seed_point_session,
-                             const segmentation::ObjectMaskPropagatorOptions& options, base::JobControl& control);
+SegmentReport segmentStoredSession(keyframes::SessionStore& store, const std::string& session_id,
+                                   const std::optional<Eigen::Vector3d>& seed_point_session,
+                                   const segmentation::ObjectMaskPropagatorOptions& options, base::JobControl& control);
 
 /// Bundle adjustment of one session; writes the poses and the colour offset back if it succeeded.
-bundle_adjustment::BundleAdjustmentResult refineSession(keyframes::SessionStore& store, const std::string& session_id,
-                                                        bundle_adjustment::BundleAdjustmentOptions options,
-                                                        base::JobControl& control);
+bundle_adjustment::BundleAdjustmentResult refineStoredSession(keyframes::SessionStore& store,
+                                                              const std::string& session_id,
+                                                              bundle_adjustment::BundleAdjustmentOptions options,
+                                                              base::JobControl& control);
 
 }  // namespace object_modelling::pipeline

@@ -19,7 +19,7 @@ std::vector<Eigen::Vector3f> invariantColors(const std::vector<Eigen::Vector3f>&
 
 /// What of values on a surface is a smooth function of its normals, as the shading of a matt surface by distant lights
 /// is: spherical harmonics of second order (Ramamoorthi and Hanrahan, An Efficient Representation for Irradiance
-/// Environment Maps, SIGGRAPH 2001, equation 13), fitted robustly, so that print weighs little. Both in the frame of
+/// Environment Maps, SIGGRAPH 2001, equation 13), fitted robustly, so that texture weighs little. Both in the frame of
 /// the light. Zero for fewer than 30 points.
 std::vector<float> shadingOf(const std::vector<float>& values, const std::vector<Eigen::Vector3f>& normals);
 

@@ -23,7 +23,7 @@ struct PairIcpOptions
 /// Point-to-plane ICP of part b on part a (Chen and Medioni 1992), with the colours of the surface where asked for
 /// (after Park, Zhou, Koltun 2017). Directions that the surfaces leave free
 /// stay, but for those that the other's support plane tells, unless coarse.
-Eigen::Isometry3f alignSurfaces(const MatchedSurface& a, const MatchedSurface& b, const Eigen::Isometry3f& T_a_b,
-                                const PairIcpOptions& options);
+Eigen::Isometry3f alignByIcp(const MatchedSurface& a, const MatchedSurface& b, const Eigen::Isometry3f& T_a_b,
+                             const PairIcpOptions& options);
 
 }  // namespace object_modelling::registration

@@ -20,7 +20,7 @@ struct TextureOptions
   /// nearly a single view, its noise and steps included; low: the mean of all views, which blurs.
   double view_preference = 2;
   /// Views whose colour (exposure corrected) is further than this from what the others agree on lose their weight:
-  /// highlights, shadows, poses that are off. Gray levels, at a place without print; more is allowed at edges.
+  /// highlights, shadows, poses that are off. Gray levels, at a place without texture; more is allowed at edges.
   double outlier_tolerance = 12;
   std::vector<std::string> violations() const;
 };

@@ -45,9 +45,9 @@ alignment::AlignmentResult SessionAligner::aligned(const object_modelling::Align
   options.use_known = options.use_known && !goal.anew;
   options.required = requiredBy(goal);
   if (goal.session_ids.size() == 1)
-    return pipeline::alignSessions(store_, goal.session_ids, options, control);
+    return pipeline::alignStoredSessions(store_, goal.session_ids, options, control);
   std::vector<registration::PartialModel> parts = pipeline::loadParts(store_, goal.session_ids, options.part, control);
-  alignment::AlignmentResult result = pipeline::alignParts(store_, parts, options, control);
+  alignment::AlignmentResult result = pipeline::alignStoredParts(store_, parts, options, control);
   if (!result.left_out.empty())
     result.status.message += "; " + remedyFor(result);
   review_.show(result.edges, std::move(parts));

@@ -195,7 +195,7 @@ object_modelling::SegmentSessionResult Segmenter::segmentSession(const object_mo
   if (goal.has_seed_point)
     seed = Eigen::Vector3d(goal.seed_point.x, goal.seed_point.y, goal.seed_point.z);
   const pipeline::SegmentReport report =
-      pipeline::segmentSession(store_, goal.session_id, seed, options_.propagator, control);
+      pipeline::segmentStoredSession(store_, goal.session_id, seed, options_.propagator, control);
   object_modelling::SegmentSessionResult result;
   result.status = ros_bridge::toMessage(report.status);
   result.keyframe_count = report.keyframe_count;

@@ -22,7 +22,7 @@ from report import failures_table, outcome_table, reliability_table, same_pose, 
 
 PRIOR_RAD = (0.26, 0.52)  # as in pair_evidence.cpp
 SAME_POSE_PROBABILITY = 1e-9  # in the fit: no such pose is taken unasked, so that it must not bend the weights
-FEATURES = ("overlap", "space", "through", "fit", "contact", "print", "color", "edges", "features")  # as in the header
+FEATURES = ("overlap", "space", "through", "fit", "contact", "texture", "color", "edges", "features")  # as in the header
 FOR_A_POSE = ("overlap", "space", "through", "fit", "contact", "color", "edges", "features")
 
 
@@ -92,7 +92,7 @@ def run_fit(arguments):
     choices = choices_of(fitted, names, arguments.cross_weight)
     others = choices_of(calibration, names, arguments.cross_weight)
     positive = [k for k, n in enumerate(names) if n in FOR_A_POSE]
-    parameters, errors = fit(choices, arguments.strength, positive, [names.index("print")])
+    parameters, errors = fit(choices, arguments.strength, positive, [names.index("texture")])
     print("fit:        ", summary(parameters, choices))
     print("other, as is:", summary(parameters, others))
     parameters, scale, shift = calibrate(parameters, others)

@@ -7,7 +7,7 @@ little. Differences speak against it only, so that no weight is positive.
 import numpy as np
 from scipy.optimize import minimize
 
-NAMES = ("stray", "print", "rivalry")  # as in object_difference.h
+NAMES = ("stray", "texture", "rivalry")  # as in object_difference.h
 
 
 def examples(pairs):

@@ -66,9 +66,9 @@ class TrueObject:
         distance = self.closest.query(moved)[0]
         same_shape = np.quantile(distance, STRAY_QUANTILE) <= STRAY_TOLERANCES * self.tolerance_m
         difference = np.abs(self._colours_at(moved, self.normals @ error[:3, :3].T) - self.colours).mean(1)
-        same_print = difference.mean() <= MEAN_COLOR and np.quantile(difference, PARTS_QUANTILE) <= PARTS_COLOR
+        same_texture = difference.mean() <= MEAN_COLOR and np.quantile(difference, PARTS_QUANTILE) <= PARTS_COLOR
         return {"add_m": add, "adds_m": float(distance.mean()), "same_shape": bool(same_shape),
-                "same_object": bool(same_shape and same_print)}
+                "same_object": bool(same_shape and same_texture)}
 
     def is_right(self, errors, shape_only=False):
         return errors["add_m"] <= self.tolerance_m or errors["same_shape" if shape_only else "same_object"]

@@ -6,7 +6,7 @@ from difference import NAMES, difference_header, examples, fit_difference, loss
 def candidate(right, log_odds, stray=None):
     made = {"right": right, "log_odds": log_odds}
     if stray is not None:
-        made["difference"] = {"stray": stray, "print": -3.0, "rivalry": 1.0}
+        made["difference"] = {"stray": stray, "texture": -3.0, "rivalry": 1.0}
     return made
 
 
