@@ -18,7 +18,7 @@ from difference import NAMES as DIFFERENCES, difference_header, examples, fit_di
 from judge import Judge  # noqa: E402
 from logistic import Choice, calibrate, fit, probabilities  # noqa: E402
 from pictures import pictures  # noqa: E402
-from report import failures_table, outcome_table, reliability_table, same_pose, together_table, well_recorded  # noqa: E402
+from report import failures_table, same_pose, tables_of, well_recorded  # noqa: E402
 
 PRIOR_RAD = (0.26, 0.52)  # as in pair_evidence.cpp
 SAME_POSE_PROBABILITY = 1e-9  # in the fit: no such pose is taken unasked, so that it must not bend the weights
@@ -126,11 +126,8 @@ def run_fit_difference(arguments):
 
 def run_report(arguments):
     for path, report in zip(arguments.json, read(arguments.json)):
-        if "objects" in report:
-            print(f"## {os.path.basename(path)}\n\n{together_table(report)}")
-            continue
-        print(f"## {os.path.basename(path)}\n\n{outcome_table(report)}\n\n{reliability_table(report)}")
-        if arguments.failures:
+        print(f"## {os.path.basename(path)}\n\n{tables_of(report)}")
+        if arguments.failures and "objects" not in report:
             print("\n" + failures_table(report))
 
 

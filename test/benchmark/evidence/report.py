@@ -121,6 +121,27 @@ def reliability_table(report):
     return "\n".join(lines)
 
 
+def recordings_table(reports):
+    """How far the refined camera is off the true one, by the table that the object stood on; all reports together."""
+    off_mm = {}
+    for session in (s for report in reports for s in report["sessions"]):
+        with open(os.path.join(session["folder"], "scene.yaml")) as text:
+            table = (yaml.safe_load(text).get("table") or {}).get("texture", "papers")
+        off_mm.setdefault(table, []).append(session["camera_rmse_mm"])
+    lines = ["| table | recordings | median mm | worse than 1.5 mm | worse than 10 mm |", "|" + "---|" * 5]
+    for table, values in sorted(off_mm.items(), key=lambda item: -len(item[1])):
+        worse = [sum(mm > limit for mm in values) for limit in (WELL_TRACKED_MM, 10)]
+        lines.append(f"| {table} | {len(values)} | {np.median(values):.2f} | {worse[0]} | {worse[1]} |")
+    return "\n".join(lines)
+
+
+def tables_of(report):
+    """What a report of pairs, or of sessions aligned together, comes to."""
+    if "objects" in report:
+        return together_table(report)
+    return f"{outcome_table(report)}\n\n{reliability_table(report)}"
+
+
 def failures_table(report):
     """Every pair that is wrong or refused, with its first candidate and the first that is right."""
     sessions = {s["id"]: s for s in report["sessions"]}
