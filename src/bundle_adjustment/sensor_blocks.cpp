@@ -154,8 +154,9 @@ void SensorBlocks::store(const BundleSolverOptions& options, ceres::Problem* pro
   covariance_options.num_threads = options.threads;
   ceres::Covariance covariance(covariance_options);
   std::vector<std::pair<const double*, const double*>> wanted;
+  // Ceres before 2 takes no const pointer.
   const auto calibrated = [&](const double* block)
-  { return problem->HasParameterBlock(block) && !problem->IsParameterBlockConstant(block); };
+  { return problem->HasParameterBlock(block) && !problem->IsParameterBlockConstant(const_cast<double*>(block)); };
   for (const double* block : { static_cast<const double*>(intrinsics.data()), &depth_growth, &depth_offset_m })
     if (calibrated(block))
       wanted.emplace_back(block, block);

@@ -84,11 +84,12 @@ public:
 
   Eigen::Vector3d closestPoint(const Eigen::Vector3d& p) const
   {
+    Eigen::Vector3d query = p;  // VTK before 9 takes no const pointer
     Eigen::Vector3d closest = p;
     vtkIdType cell_id = 0;
     int sub_id = 0;
     double squared_distance = 0;
-    locator_->FindClosestPoint(p.data(), closest.data(), cell_, cell_id, sub_id, squared_distance);
+    locator_->FindClosestPoint(query.data(), closest.data(), cell_, cell_id, sub_id, squared_distance);
     return closest;
   }
 
