@@ -7,25 +7,42 @@ cmake_arguments=()
 
 fail() { printf '%s: %s\n' "$(basename "$0")" "$*" >&2; exit 1; }
 
+# ROS of packages.ros.org, which Ubuntu 20.04 takes; Debian's own is in /usr and needs nothing sourced.
+ros_folder=
+[ ! -f /opt/ros/noetic/setup.bash ] || ros_folder=/opt/ros/noetic
+if [ -n "$ros_folder" ]; then
+  # catkin's setup files use unset variables.
+  set +u
+  . "$ros_folder/setup.bash"
+  set -u
+fi
+
+# wanted_packages RELEASE [ROS]: what of tools/packages.txt to install on a release (code name), one a line; ROS: the
+# distribution in /opt/ros, if there is one.
+wanted_packages() {
+  awk -v release="$1" -v ros="${2:-}" '
+    /^#/ || !NF { next }
+    $3 ~ /^-/ && index("," substr($3, 2) ",", "," release ",") { next }
+    $3 == "ros" && ros { gsub("_", "-", $2); $1 = "ros-" ros "-" $2 }
+    { print $1 }' "$root/tools/packages.txt" | sort -u
+}
+
 missing_packages() {
   local wanted
-  mapfile -t wanted < <(awk '!/^#/ && NF {print $1}' "$root/tools/packages.txt")
+  wanted="$(wanted_packages "$(. /etc/os-release && echo "${VERSION_CODENAME:-}")" "$(basename "$ros_folder")")"
   # Lists what is installed; unknown names go to stderr.
-  dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null | awk '$1 == "installed" {print $2}' |
-    sort > "$1.installed" || true
-  printf '%s\n' "${wanted[@]}" | sort -u | comm -23 - "$1.installed"
+  comm -23 <(echo "$wanted") <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' $wanted 2>/dev/null |
+    awk '$1 == "installed" {print $2}' | sort -u)
 }
 
 install_missing() {
   command -v apt-get >/dev/null && command -v dpkg-query >/dev/null ||
     { echo "No apt here: install what package.xml lists with rosdep, and libsoci-dev." >&2; return; }
-  local list missing as_root=()
-  list="$(mktemp)"
-  missing="$(missing_packages "$list")"
-  rm -f "$list" "$list.installed"
+  local missing as_root=()
+  missing="$(missing_packages)"
   [ -n "$missing" ] || return 0
-  if [ -d /opt/ros ]; then
-    echo "ROS is in /opt/ros, so this is not Debian's ROS: install what package.xml lists with rosdep, and libsoci-dev." >&2
+  if [ -d /opt/ros ] && [ -z "$ros_folder" ]; then
+    echo "ROS is in /opt/ros, but it is not Noetic: install what package.xml lists with rosdep, and libsoci-dev." >&2
     return 0
   fi
   [ "$(id -u)" = 0 ] || { command -v sudo >/dev/null && as_root=(sudo) ||
