@@ -1,7 +1,7 @@
 #include "object_modelling/geometry/point_index.h"
 
 #include <algorithm>
-#include <utility>
+#include <type_traits>
 
 #include <nanoflann.hpp>
 
@@ -35,8 +35,10 @@ public:
   }
   std::vector<std::uint32_t> findWithin(const Point& query, Scalar radius) const
   {
-    std::vector<std::pair<std::uint32_t, Scalar>> found;
-    nanoflann::RadiusResultSet<Scalar, std::uint32_t> result(radius * radius, found);
+    using ResultSet = nanoflann::RadiusResultSet<Scalar, std::uint32_t>;
+    // Of pairs before nanoflann 1.5, of its own type since.
+    std::remove_reference_t<decltype(ResultSet::m_indices_dists)> found;
+    ResultSet result(radius * radius, found);
     tree_.findNeighbors(result, query.data(), {});
     std::vector<std::uint32_t> indices;
     indices.reserve(found.size());
