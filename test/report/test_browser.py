@@ -18,7 +18,8 @@ def chromium():
     for name in ("chromium", "chromium-browser", "google-chrome"):
         if shutil.which(name):
             return shutil.which(name)
-    raise RuntimeError("no chromium: install the packages of tools/packages.txt")
+    # Ubuntu 20.04 has it as a snap only, which does not run in a container.
+    raise unittest.SkipTest("Chromium is not installed (package chromium)")
 
 
 class BrowserTest(unittest.TestCase):
