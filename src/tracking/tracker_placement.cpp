@@ -263,7 +263,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::recognis
                         isWhereLost(placement.pose.T_world_camera, placement.reference->median_depth_m)))
     return placement;
   placement.pose.valid = false;
-  placement.reason = "looks like a known view, but nothing tells it from other places: go back to where it was lost";
+  placement.reason = "looks like a known view, but other places look the same: go back to where it was lost";
   return placement;
 }
 
