@@ -72,7 +72,11 @@ PairCandidate candidateFrom(const YAML::Node& node)
   if (!(R * R.transpose()).isIdentity(MAX_ROTATION_ERROR) || R.determinant() < 0)
     throw base::Error(base::StatusCode::BAD_INPUT, "a_from_b is no rigid motion");
   if (node[SAME_OBJECT])
+  {
     candidate.same_object_probability = finite(node[SAME_OBJECT]);
+    if (candidate.same_object_probability < 0 || candidate.same_object_probability > 1)
+      throw base::Error(base::StatusCode::BAD_INPUT, std::string("has a ") + SAME_OBJECT + " outside 0 to 1");
+  }
   for (const registration::PairFigure& figure : registration::pairFigures())
     if (figure.required || node[figure.name])
       candidate.quality.*figure.value = finite(node[figure.name]);

@@ -53,7 +53,7 @@ std::vector<std::vector<Eigen::Isometry3d>> cyclePoses(const EdgeGraph& graph)
   std::vector<std::vector<Eigen::Isometry3d>> result(graph.edges());
   for (int edge = 0; edge < graph.edges(); ++edge)
   {
-    if (graph.decided(edge))
+    if (graph.decided(edge) || !graph.usable(edge))
       continue;
     const auto& [a, b] = graph.ends(edge);
     std::vector<Implied> poses;

@@ -63,6 +63,7 @@ EdgeGraph::EdgeGraph(const std::vector<registration::PartialModel>& parts, doubl
   for (const AlignmentEdge& edge : edges)
   {
     ends_.emplace_back(index_of.at(edge.session_a), index_of.at(edge.session_b));
+    doubtful_.push_back(!parts[ends_.back().first].doubt.empty() || !parts[ends_.back().second].doubt.empty());
     own_.push_back(ownProbabilities(edge.candidates));
     same_sums_.push_back(std::accumulate(edge.candidates.begin(), edge.candidates.end(), 0.0,
                                          [](double sum, const PairCandidate& candidate)

@@ -45,7 +45,13 @@ public:
   const std::pair<int, int>& ends(int edge) const { return ends_[edge]; }
   int otherEnd(int edge, int session) const;
   /// Whether an edge has poses that no person refused.
-  bool usable(int edge) const { return edges_[edge].best() && edges_[edge].decision != Decision::REFUSED; }
+  /// A session whose shape is in doubt (PartialModel::doubt) is joined by a person alone: what is wrong in it agrees
+  /// with itself.
+  bool usable(int edge) const
+  {
+    return edges_[edge].best() && edges_[edge].decision != Decision::REFUSED &&
+           (!doubtful_[edge] || edges_[edge].decision == Decision::ACCEPTED);
+  }
   bool decided(int edge) const { return edges_[edge].decision != Decision::AUTOMATIC; }  ///< by a person
   bool holds(int edge, const Placement& placed) const;                                   ///< both ends are placed
   /// Usable edges between a session and those placed.
@@ -86,6 +92,7 @@ private:
   const std::vector<AlignmentEdge>& edges_;
   double refused_probability_;
   std::vector<Eigen::Vector3d> centres_;
+  std::vector<bool> doubtful_;  // by edge: either session is
   std::vector<std::pair<int, int>> ends_;
   std::vector<std::vector<double>> own_;  ///< by edge and candidate
   std::vector<double> same_sums_;         ///< by edge, over its candidates

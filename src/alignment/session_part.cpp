@@ -83,8 +83,11 @@ KnownViews knownViewsOf(const keyframes::Session& session, const std::vector<rgb
         rgbd::viewOf(keyframes[index], Eigen::Isometry3d::Identity(), 0, session.calibration.color_offset_px));
   const rgbd::PathCertainty path = rgbd::pathCertainty(views);
   KnownViews known;
+  std::vector<int> ids;
+  for (const int index : masked)
+    ids.push_back(keyframes[index].id);
   if (path.doubtful)
-    known.doubt = describe(path, views.size(), session.id);
+    known.doubt = describe(path, ids, session.id);
   for (const std::size_t i : rgbd::knownViews(path, views.size()))
   {
     known.views.push_back(views[i]);

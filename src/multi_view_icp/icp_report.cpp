@@ -155,7 +155,8 @@ void reportKnowledge(const std::vector<rgbd::View>& views, const std::vector<int
   for (std::size_t i = 1; i < outcome.members.size(); ++i)
   {
     const int k = outcome.members[i];
-    result->covariance[k] = covariances[k];
+    if (!covariances[k].isZero(0))  // equations that cannot be solved give none
+      result->covariance[k] = covariances[k];
     const Eigen::Vector3d centre = centreOf(views[k].frame, object_only, outcome.T_world_camera[k]);
     std::vector<FreeDirection> free = unresisted(k, information_of[k], noise_of[k], centre);
     if (free.empty())

@@ -119,7 +119,10 @@ public:
     {
       report_.status = (this->*step)();
       if (!report_.status.ok())
+      {
+        addWarnings();
         return report_;
+      }
     }
     addTexture();
     completeModel();
@@ -134,6 +137,7 @@ private:
   base::Status reconstruct();  ///< the surface, and with it the object's frame
   void addTexture();
   void completeModel();
+  void addWarnings();  ///< to the status' message
   void write();
 
   keyframes::SessionStore& store_;
@@ -250,6 +254,13 @@ void Build::completeModel()
   timer_.finish("describe");
 }
 
+void Build::addWarnings()
+{
+  for (const std::string& warning : warnings_)
+    if (!warning.empty())
+      report_.status.message += (report_.status.message.empty() ? "" : "; ") + warning;
+}
+
 void Build::write()
 {
   report_.object_folder =
@@ -262,9 +273,7 @@ void Build::write()
                         warnings_.push_back(reportWarning(folder, model_.id, database_.root(), control_));
                         timer_.finish("report");
                       });
-  for (const std::string& warning : warnings_)
-    if (!warning.empty())
-      report_.status.message += (report_.status.message.empty() ? "" : "; ") + warning;
+  addWarnings();
   report_.preview_path = report_.object_folder + "/preview.png";
   report_.size_m = model_.box_model.size_m;
   report_.diameter_m = model_.diameter_m;

@@ -27,7 +27,10 @@ void keepKnown(const std::string& session_id, std::size_t first, Views* views)
   const rgbd::PathCertainty path = rgbd::pathCertainty(all);
   if (path.allKnown())
     return;
-  views->warnings.push_back(describe(path, all.size(), session_id));
+  std::vector<int> ids;
+  for (const report::ViewOrigin& origin : origins)
+    ids.push_back(origin.keyframe_id);
+  views->warnings.push_back(describe(path, ids, session_id));
   views->views.resize(first);
   views->origins.resize(first);
   for (const std::size_t i : rgbd::knownViews(path, all.size()))

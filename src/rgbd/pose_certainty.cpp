@@ -15,15 +15,20 @@ namespace
 {
 constexpr double MAX_TRANSLATION_RATIO = 0.02;  // of the depth
 constexpr double MAX_ROTATION_RAD = 0.02;
-constexpr double MOST_SHOWN = 1e6;  // in texts: beyond it digits say nothing
-constexpr int DEPTH_STEP_PX = 8;    // of the pixels that a view's depth is read from
+constexpr double MOST_SHOWN = 1e6;       // in texts: beyond it digits say nothing
+constexpr double NEGATIVE_RATIO = 1e-6;  // of the greatest variance, by rounding
+constexpr std::size_t MIN_KNOWN = 2;     // a surface is what two views see
+constexpr std::size_t MOST_NAMED = 12;   // of keyframes in a text
+constexpr int DEPTH_STEP_PX = 8;         // of the pixels that a view's depth is read from
 
+/// Infinite where the covariance is none.
 double greatestSigma(const Eigen::Matrix3d& block)
 {
   if (!block.allFinite())
     return std::numeric_limits<double>::infinity();
-  const double variance = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block).eigenvalues().z();
-  return variance < 0 ? 0 : std::sqrt(variance);
+  const Eigen::Vector3d variances = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block).eigenvalues();
+  const bool is_covariance = variances.x() >= -NEGATIVE_RATIO * std::abs(variances.z());
+  return is_covariance ? std::sqrt(std::max(0.0, variances.z())) : std::numeric_limits<double>::infinity();
 }
 
 /// Median over the object where it is known, else over the image; 0 without depth.
@@ -77,21 +82,25 @@ PathCertainty pathCertainty(const std::vector<View>& views)
     path.worst.translation_m = std::max(path.worst.translation_m, sigma.translation_m);
     path.worst.rotation_rad = std::max(path.worst.rotation_rad, sigma.rotation_rad);
   }
-  path.doubtful = 2 * path.unknown.size() > views.size();
+  path.doubtful =
+      !path.allKnown() && (2 * path.unknown.size() > views.size() || views.size() - path.unknown.size() < MIN_KNOWN);
   return path;
 }
 
-std::string describe(const PathCertainty& path, std::size_t views, const std::string& session_id)
+std::string describe(const PathCertainty& path, const std::vector<int>& keyframe_ids, const std::string& session_id)
 {
   if (path.allKnown())
     return {};
-  const std::string which = std::to_string(path.unknown.size()) + " of the " + std::to_string(views) +
-                            " keyframes of session '" + session_id + "'";
-  const std::string how =
-      "it is not known where the camera was (up to " + path.worst.text() + " unsure), since the scene is plain: ";
-  if (path.doubtful)
-    return "of " + which + " " + how + "record it again with something textured under or beside the object";
-  return which + " are left out: " + how + "put something textured under or beside the object";
+  std::string ids;
+  for (std::size_t i = 0; i < std::min(MOST_NAMED, path.unknown.size()); ++i)
+    ids += (i == 0 ? "" : ", ") + std::to_string(keyframe_ids[path.unknown[i]]);
+  if (path.unknown.size() > MOST_NAMED)
+    ids += ", ...";
+  const std::string text = "session '" + session_id + "': where the camera was is not known for " +
+                           std::to_string(path.unknown.size()) + " of " + std::to_string(keyframe_ids.size()) +
+                           " keyframes (" + ids + "; unsure by up to " + path.worst.text() + ")";
+  return text + (path.doubtful ? "" : ", which are left out") +
+         ": record again with something textured under or beside the object";
 }
 
 std::vector<std::size_t> knownViews(const PathCertainty& path, std::size_t views)

@@ -34,11 +34,13 @@ registration::DenseAlignment alignCoarsely(const MapKeyframe& keyframe, const re
                                   geometry::Matrix6d::Zero(), coarse);
 }
 
-/// Whether keyframes that look alike hold the frame for one of another place as surely: a plain round thing on a plain
-/// table looks the same from everywhere.
-bool looksLikeElsewhere(const registration::DenseAlignment& best, double depth_m, const cv::Mat& thumbnail,
-                        const registration::DensePyramid& frame, const KeyframeMap& map)
+/// Other poses at which keyframes that look alike hold the frame as surely: a plain round thing on a plain table looks
+/// the same from everywhere.
+std::vector<Eigen::Isometry3d> rivalsOf(const registration::DenseAlignment& best, double depth_m,
+                                        const cv::Mat& thumbnail, const registration::DensePyramid& frame,
+                                        const KeyframeMap& map)
 {
+  std::vector<Eigen::Isometry3d> rivals;
   for (const MapKeyframe* similar : map.similarImages(thumbnail, RIVALS))
   {
     const registration::DenseAlignment other = alignCoarsely(*similar, frame, similar->T_session_camera);
@@ -48,9 +50,9 @@ bool looksLikeElsewhere(const registration::DenseAlignment& best, double depth_m
     const Eigen::Isometry3d apart = best.T_world_camera.inverse() * other.T_world_camera;
     if (geometry::rotationAngle_rad(apart) > SAME_PLACE_RAD ||
         apart.translation().norm() > SAME_PLACE_DEPTH_RATIO * depth_m)
-      return true;
+      rivals.push_back(other.T_world_camera);
   }
-  return false;
+  return rivals;
 }
 }  // namespace
 
@@ -84,7 +86,7 @@ std::optional<RecognisedSurfaces> relocaliseBySurfaces(const registration::Dense
                                            best.T_world_camera, geometry::Matrix6d::Zero(), fine);
   if (!found.aligned.converged || !registration::certain(found.aligned.term))
     return std::nullopt;
-  found.unique = !looksLikeElsewhere(best, best_keyframe->median_depth_m, thumbnail, frame, map);
+  found.rivals = rivalsOf(best, best_keyframe->median_depth_m, thumbnail, frame, map);
   return found;
 }
 

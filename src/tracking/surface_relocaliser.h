@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "keyframe_map.h"
 #include "object_modelling/registration/dense_alignment.h"
@@ -11,7 +12,7 @@ namespace object_modelling::tracking
 struct RecognisedSurfaces
 {
   registration::DenseAlignment aligned;
-  bool unique = true;  ///< no other keyframe fits nearly as well at another pose
+  std::vector<Eigen::Isometry3d> rivals;  ///< other poses at which other keyframes fit nearly as well
 };
 
 /// Places a frame that looks from near a keyframe by aligning it densely: quick, and works without texture. Tried are

@@ -79,7 +79,8 @@ private:
   Placement placeByRecognition(const View& view, StageTimes* times) const;
   /// By dense alignment with keyframes that look alike or are near; not valid where another place looks the same.
   Placement recogniseBySurfaces(const View& view, StageTimes* times) const;
-  /// Whether a pose is near where the camera was last: before that, the last keyframe.
+  /// Whether a pose is near where the camera was last, or where a robot has carried it since; in a resumed session,
+  /// near the last keyframe.
   bool isWhereLost(const Eigen::Isometry3d& T_session_camera, double depth_m) const;
   /// Surfaces of the nearest keyframe at the finest level, from a pose that is close.
   Surfaces surfacesNear(const View& view, const Eigen::Isometry3d& T_session_camera, StageTimes* times) const;

@@ -254,22 +254,30 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::recognis
   timer.stop();
   if (!found)
     return {};
-  Placement placement;
-  if (found->unique)
-    placement = placeNear(view, surfacesNear(view, found->aligned.T_world_camera, times), {}, ALIGNMENT_ERROR_PX,
-                          nullptr, times);
+  Placement placement =
+      placeNear(view, surfacesNear(view, found->aligned.T_world_camera, times), {}, ALIGNMENT_ERROR_PX, nullptr, times);
   placement.wide_baseline = true;
-  if (found->unique && (!placement.pose.valid || placement.by_landmarks ||
-                        isWhereLost(placement.pose.T_world_camera, placement.reference->median_depth_m)))
+  if (!placement.pose.valid)
+    return placement;
+  const double depth_m = placement.reference->median_depth_m;
+  const bool rival_is_where_lost =
+      std::any_of(found->rivals.begin(), found->rivals.end(),
+                  [&](const Eigen::Isometry3d& T_session_rival) { return isWhereLost(T_session_rival, depth_m); });
+  const bool is_where_lost = isWhereLost(placement.pose.T_world_camera, depth_m);
+  if ((is_where_lost && !rival_is_where_lost) || (found->rivals.empty() && placement.by_landmarks))
     return placement;
   placement.pose.valid = false;
-  placement.reason = "looks like a known view, but other places look the same: go back to where it was lost";
+  placement.reason = "looks like a known view, but other places look the same: ";
+  placement.reason +=
+      is_where_lost ? "put something textured beside the object and record again" : "go back to where it was lost";
   return placement;
 }
 
 bool CameraTracker::Implementation::isWhereLost(const Eigen::Isometry3d& T_session_camera, double depth_m) const
 {
-  const Eigen::Isometry3d T_session_last = motion_.last() ? *motion_.last() : map_.keyframes().back()->T_session_camera;
+  Eigen::Isometry3d T_session_last = motion_.last() ? *motion_.last() : map_.keyframes().back()->T_session_camera;
+  if (motion_.last() && T_robot_camera_ && T_robot_camera_last_)
+    T_session_last = T_session_last * T_robot_camera_last_->inverse() * *T_robot_camera_;
   const Eigen::Isometry3d T_last_camera = T_session_last.inverse() * T_session_camera;
   return geometry::rotationAngle_rad(T_last_camera) <= WHERE_LOST_RAD &&
          T_last_camera.translation().norm() <= WHERE_LOST_RAD * depth_m;

@@ -56,6 +56,31 @@ TEST_F(SessionGraph, PlacesSixSessionsFromAllTheirPairs)
     EXPECT_TRUE(edge.accepted && edge.reason.empty()) << edge.reason;
 }
 
+TEST_F(SessionGraph, SessionInDoubtIsJoinedByAPersonAlone)
+{
+  parts_[2].doubt = "where the camera was is not known";
+  std::vector<AlignmentEdge> edges = allPairs(0.95);
+  for (AlignmentEdge& edge : edges)
+    if (edge.session_a == "c" || edge.session_b == "c")
+    {
+      edge.accepted = false;
+      edge.reason = parts_[2].doubt;
+    }
+  const AlignmentResult result = place(edges);
+  expectTruth(result, 5);
+  EXPECT_EQ(result.left_out, (std::vector<std::string>{ "c" })) << "though five pairs agree";
+  EXPECT_NE(result.status.message.find(parts_[2].doubt), std::string::npos) << result.status.message;
+  for (AlignmentEdge& edge : edges)
+    if (edge.session_a == "c" && edge.session_b == "a")
+      edge.decision = Decision::ACCEPTED;
+  const AlignmentEdge* accepted = nullptr;
+  for (const AlignmentEdge& edge : edges)
+    if (edge.decision == Decision::ACCEPTED)
+      accepted = &edge;
+  ASSERT_TRUE(accepted);
+  expectTruth(place(edges), 6);
+}
+
 TEST_F(SessionGraph, PlacesAChainThatNothingElseHolds)
 {
   std::vector<AlignmentEdge> chain = ring(6, 0.8);

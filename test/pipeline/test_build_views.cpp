@@ -44,7 +44,8 @@ TEST_F(BuildObject, KeyframesWhosePosesAreNotKnownAreLeftOutAndNamed)
   EXPECT_EQ(views.origins[2].keyframe_id, 3);
   EXPECT_EQ(views.origins[5].keyframe_id, 7);
   ASSERT_EQ(views.warnings.size(), 1u);
-  EXPECT_NE(views.warnings[0].find("2 of the 12 keyframes of session 'box' are left out"), std::string::npos)
+  EXPECT_NE(views.warnings[0].find("session 'box': where the camera was is not known for 2 of 12 keyframes (2, 5;"),
+            std::string::npos)
       << views.warnings[0];
   const BuildReport report = build({ "box" });
   ASSERT_TRUE(report.status.ok()) << report.status.message;
@@ -58,8 +59,17 @@ TEST_F(BuildObject, OfASessionThatIsMostlyNotKnownAllIsTakenAndDoubted)
   ASSERT_TRUE(loadViews(*store_, { { "box", Eigen::Isometry3d::Identity() } }, control_, &views).ok());
   EXPECT_EQ(views.views.size(), 12u);
   ASSERT_EQ(views.warnings.size(), 1u);
-  EXPECT_NE(views.warnings[0].find("of 8 of the 12 keyframes of session 'box'"), std::string::npos)
-      << views.warnings[0];
+  EXPECT_NE(views.warnings[0].find("not known for 8 of 12 keyframes"), std::string::npos) << views.warnings[0];
+}
+
+TEST_F(BuildObject, FailureAlsoNamesTheKeyframesThatWereLeftOut)
+{
+  setSigma(*store_, "box", { 2, 5 }, 0.03, 0.001);
+  BuildOptions options = coarse();
+  options.fusion.min_views = 50;
+  const BuildReport report = build({ "box" }, options);
+  EXPECT_FALSE(report.status.ok());
+  EXPECT_NE(report.status.message.find("which are left out"), std::string::npos) << report.status.message;
 }
 
 TEST_F(BuildObject, ViewsOfAllSessionsAreInTheReferenceFrame)

@@ -44,7 +44,7 @@ public:
     const registration::ImagePyramid pyramid(frame.gray);
     const std::optional<RecognisedSurfaces> found = relocaliseBySurfaces(
         registration::DensePyramid(frame, pyramid.levels()), makeThumbnail(frame.gray), map_, T_hint);
-    return found && found->unique ? std::make_optional(found->aligned) : std::nullopt;
+    return found && found->rivals.empty() ? std::make_optional(found->aligned) : std::nullopt;
   }
 
 private:

@@ -14,7 +14,7 @@ struct PoseSigma
   double translation_m = 0;
   double rotation_rad = 0;
 
-  /// Within 2 % of the depth of what is looked at, and 20 mrad. Not a number is not.
+  /// Within 2 % of the depth of what is looked at, and 20 mrad. What is not finite is not.
   bool isKnown(double depth_m) const;
   std::string text() const;  ///< "12 mm, 31 mrad"
 };
@@ -31,7 +31,8 @@ struct PathCertainty
 {
   std::vector<std::size_t> unknown;  ///< indices of views whose pose is not known; all zero covariances are believed
   PoseSigma worst;                   ///< of those
-  /// More than half are unknown. Then nothing is known of them relative to each other, and none is better than others.
+  /// More than half are unknown, or fewer than two would be left. Then none is better than others: the covariances are
+  /// relative to the first keyframe, and say nothing of the others among themselves.
   bool doubtful = false;
 
   bool allKnown() const { return unknown.empty(); }
@@ -39,8 +40,8 @@ struct PathCertainty
 
 PathCertainty pathCertainty(const std::vector<View>& views);
 
-/// What a person is told, with what to do about it; empty where all are known.
-std::string describe(const PathCertainty& path, std::size_t views, const std::string& session_id);
+/// What a person is told, with what to do about it; empty where all are known. `keyframe_ids`: of the views.
+std::string describe(const PathCertainty& path, const std::vector<int>& keyframe_ids, const std::string& session_id);
 
 /// Takes out the views that are not known, unless the path is doubtful: gives the indices of those that stay.
 std::vector<std::size_t> knownViews(const PathCertainty& path, std::size_t views);
