@@ -78,7 +78,9 @@ std::string textOf(const aiExportDataBlob& blob)
 
 void writeGlb(const std::string& path, const TexturedMesh& textured)
 {
-  const std::unique_ptr<aiScene> scene = makeTexturedScene(textured, "*0", encodePng(textured.texture_bgr));
+  std::vector<unsigned char> png = encodePng(textured.texture_bgr);
+  png.resize((png.size() + 3) / 4 * 4);  // to whole words: Assimp 5.0 fills the gap with whatever memory holds
+  const std::unique_ptr<aiScene> scene = makeTexturedScene(textured, "*0", png);
   Assimp::Exporter exporter;
   base::writeTextFile(path, textOf(*exportScene(path, *scene, "glb2", &exporter)));
 }
