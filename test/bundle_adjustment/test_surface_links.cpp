@@ -61,11 +61,17 @@ TEST_F(SurfaceLinks, MeasureRelativePosesFromWrongOnes)
 
 TEST_F(SurfaceLinks, HoldKeyframesTogetherThatShareNoLandmark)
 {
+  const geometry::Matrix6d unsure = 1e-6 * geometry::Matrix6d::Identity();
+  for (std::size_t k = 1; k < keyframes_.size(); ++k)
+    keyframes_[k].covariance = unsure;
   const BundleAdjustmentResult result = adjustBundle(keyframes_, {}, control_);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   EXPECT_TRUE(result.left_out.empty());
   for (std::size_t k = 0; k < keyframes_.size(); ++k)
     EXPECT_TRANSFORM_NEAR(result.T_session_camera[k], truth_[0].inverse() * truth_[k], 0.002, 0.003) << k;
+  // Landmarks alone give covariances; zero would say that all is sure.
+  for (std::size_t k = 1; k < keyframes_.size(); ++k)
+    EXPECT_EQ(result.covariance[k], unsure) << k;
 }
 
 /// Colour images shifted by `offset_px` against the depth images.
