@@ -1,4 +1,4 @@
-# Libraries that Debian 11 and Ubuntu 20.04 have no package of: the sources that Debian 12 packages, fetched while
+# Libraries that Debian 11 and Ubuntu 20.04 have no fitting package of: the sources that Debian 12 packages, fetched while
 # configuring. Without network: unpack the archive anywhere and configure with -DFETCHCONTENT_SOURCE_DIR_<NAME>=<folder>,
 # name in capitals.
 include(FetchContent)
@@ -7,7 +7,7 @@ include(FetchContent)
 function(object_modelling_fetch name path sha256)
   set(_url http://deb.debian.org/debian/pool/main/${path})
   string(TOUPPER ${name} _upper)
-  message(STATUS "No package of ${name} is installed: taking ${_url}; -DFETCHCONTENT_SOURCE_DIR_${_upper}=<folder> has it unpacked")
+  message(STATUS "No package serves for ${name}: taking ${_url}, or FETCHCONTENT_SOURCE_DIR_${_upper}")
   FetchContent_Declare(${name} URL ${_url} URL_HASH SHA256=${sha256})
   FetchContent_GetProperties(${name})
   if(NOT ${name}_POPULATED)
@@ -36,4 +36,17 @@ function(object_modelling_fetch_openmesh)
   set_target_properties(object_modelling_fetched_openmesh PROPERTIES POSITION_INDEPENDENT_CODE ON)
   set(OPENMESH_INCLUDE_DIR ${_source} PARENT_SCOPE)
   set(OPENMESH_LIBRARIES object_modelling_fetched_openmesh PARENT_SCOPE)
+endfunction()
+
+# Static and hidden, for a process that has libqhull as well.
+function(object_modelling_fetch_qhull)
+  object_modelling_fetch(qhull q/qhull/qhull_2020.2.orig.tar.gz
+    b5c2d7eb833278881b952c8a52d20179eab87766b00b865000469a45c1838b7e)
+  set(_source ${qhull_SOURCE_DIR}/src)
+  file(GLOB _files ${_source}/libqhull_r/*.c)
+  add_library(object_modelling_fetched_qhull STATIC ${_files})
+  target_include_directories(object_modelling_fetched_qhull PRIVATE ${_source})
+  set_target_properties(object_modelling_fetched_qhull PROPERTIES POSITION_INDEPENDENT_CODE ON C_VISIBILITY_PRESET hidden)
+  set(OBJECT_MODELLING_QHULL_INCLUDE_DIR ${_source} PARENT_SCOPE)
+  set(OBJECT_MODELLING_QHULL_LIBRARY object_modelling_fetched_qhull PARENT_SCOPE)
 endfunction()

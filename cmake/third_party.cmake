@@ -14,10 +14,8 @@ find_package(assimp REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(Threads REQUIRED)
 find_package(Boost REQUIRED COMPONENTS filesystem system)  # Process
-# Names of our own: Ceres 1.14 leaves an empty GLOG_LIBRARY in the cache, PCL 1.11 the QHULL_LIBRARY without _r.
+# A name of our own: Ceres 1.14 leaves an empty GLOG_LIBRARY in the cache.
 find_library(OBJECT_MODELLING_GLOG_LIBRARY glog REQUIRED)
-find_library(OBJECT_MODELLING_QHULL_LIBRARY qhull_r REQUIRED)
-find_path(OBJECT_MODELLING_QHULL_INCLUDE_DIR libqhull_r/qhull_ra.h REQUIRED)
 find_path(SOCI_INCLUDE_DIR soci/soci.h REQUIRED)
 # The headers of SOCI's backends include those of the client libraries; Debian's libsoci-dev does not pull them.
 find_path(SQLITE_INCLUDE_DIR sqlite3.h REQUIRED)
@@ -28,8 +26,15 @@ foreach(_backend core sqlite3 postgresql)
   find_library(SOCI_${_backend}_LIBRARY soci_${_backend} REQUIRED)
 endforeach()
 
-# Packages from Debian 12 on.
 include(cmake/fetched.cmake)
+if(PCL_VERSION VERSION_LESS 1.12)
+  # PCL then loads libqhull, whose functions have the names of libqhull_r's and other arguments: ours are linked in, hidden.
+  object_modelling_fetch_qhull()
+else()
+  find_library(OBJECT_MODELLING_QHULL_LIBRARY qhull_r REQUIRED)
+  find_path(OBJECT_MODELLING_QHULL_INCLUDE_DIR libqhull_r/qhull_ra.h REQUIRED)
+endif()
+# Packages from Debian 12 on.
 find_path(CLI11_INCLUDE_DIR CLI/CLI.hpp)
 if(NOT CLI11_INCLUDE_DIR)
   object_modelling_fetch_cli11()
