@@ -13,8 +13,8 @@ struct PointPair
 };
 
 /// Pose by three or more pairs of points (Umeyama 1991), then moved into place by shape and colour where that stays
-/// near. Throws base::Error (INVALID_ARGUMENT) that tells which pairs are of no use: fewer than three, nearly on a
-/// line, or farther apart in one session than in the other.
+/// near. Throws base::Error (INVALID_ARGUMENT) that names the useless pairs: fewer than three, nearly on a line, or
+/// farther apart in one session than in the other.
 PairCandidate alignByPoints(const registration::PartialModel& a, const registration::PartialModel& b,
                             const std::vector<PointPair>& pairs, const PairAlignmentOptions& options,
                             base::JobControl& control);

@@ -14,7 +14,7 @@ namespace object_modelling::alignment
 struct ObjectDifference
 {
   double stray_ratio = 0;     ///< of the points of one session, those moved to where views saw that nothing is
-  double unknown_ratio = 0;   ///< of all points, those moved to where nobody looked
+  double unknown_ratio = 0;   ///< of all points: those moved to space that no view observed
   double color_variance = 0;  ///< mean square of the differences of the colours of points that meet
   /// Of the points of one session that meet any, those whose colours differ by more than those of the sessions do at
   /// the best pose.
@@ -55,14 +55,14 @@ const char* nameOf(DifferenceFeature feature);
 /// `log_odds_gap`: of the best pose minus the rival.
 DifferenceFeatures featuresOf(const ObjectDifference& difference, double log_odds_gap);
 
-/// Where more than that is moved to where nobody looked, nobody knows.
+/// Upper bound of unknown_ratio: beyond it the two poses cannot be compared.
 constexpr double MAX_UNKNOWN_RATIO = 0.15;
-/// Where more than that meets other texture, it is another object, however alike the two poses score: what one session
-/// alone saw of the texture has no say in that. 0.05 is noise.
+/// Upper bound of the share of points that meet other texture: beyond it the poses make different objects, however
+/// alike they score. Texture that one session alone observed does not count. 0.05 is noise.
 constexpr double MAX_OTHER_TEXTURE_RATIO = 0.25;
 
 /// Probability that the rival makes the same object as the best pose, given that the best one is right
-/// (docs/alignment.md tells how its weights were learnt); 0 beyond MAX_UNKNOWN_RATIO and MAX_OTHER_TEXTURE_RATIO. A gap
+/// (docs/alignment.md: how its weights were fitted); 0 beyond MAX_UNKNOWN_RATIO and MAX_OTHER_TEXTURE_RATIO. A gap
 /// below 0 or beyond MAX_RIVALRY counts as that.
 double sameObjectProbability(const ObjectDifference& difference, double log_odds_gap);
 

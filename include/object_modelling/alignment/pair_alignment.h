@@ -16,9 +16,9 @@ struct PairAlignmentOptions
   int refined_candidates = 40;      ///< best ones that are refined finely; up to four times as many if they score alike
   double min_overlap_ratio = 0.12;  ///< of the surface of the smaller part
   double min_probability = 0.85;    ///< below it an alignment is refused
-  /// How often an object is recorded again without having been turned over. A pose that says so has that against it,
-  /// for nothing joins two sessions so well as laying one top on the other's; below 0.1 it is found, but not taken
-  /// unasked.
+  /// Prior probability, in (0, 1), that an object is recorded again without having been turned over. Poses without a
+  /// turn are weighted by it, since laying one session's top on the other's always fits well. Below 0.1 such a pose is
+  /// found, but not accepted automatically.
   double same_pose_probability = 0.01;
   std::uint64_t seed = 1;  ///< of the choice of feature samples
   int threads = 2;         ///< any number gives the same bits

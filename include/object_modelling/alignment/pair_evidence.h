@@ -6,8 +6,8 @@
 
 namespace object_modelling::alignment
 {
-/// What a pose's figures say for it, each on a scale on which it adds up. docs/alignment.md tells how the weights were
-/// learnt.
+/// Evidence for a pose from its quality measures, each on a scale on which it is additive. docs/alignment.md: how the
+/// weights were fitted.
 enum class Feature
 {
   OVERLAP,   ///< up to a third of the surface in common: beyond that it proves nothing more
@@ -29,8 +29,8 @@ const char* nameOf(Feature feature);
 
 FeatureVector featuresOf(const registration::PairQuality& quality);
 
-/// Logarithm of how much rarer it is that an object was not turned over between two sessions than that it was, where
-/// a pose says so; 0 where it was turned, or where that is not known.
+/// Log odds of an object that was not turned over between two sessions against one that was, for a pose without a turn;
+/// 0 for a pose with one, or where that is not known.
 double turnPrior(const registration::PairQuality& quality, double same_pose_probability);
 
 /// Whether, by a pose, the object lay in both sessions as in the other, or nearly so.

@@ -48,8 +48,8 @@ struct AlignmentResult
 };
 
 /// Places the sessions of one object in the frame of the first of them (where that one fits none, of the first that
-/// does) by all edges together: a session is placed where it is more probable than `min_probability`, given what all
-/// its pairs with the others say. One that is not is left out and named, never left at identity.
+/// does) by all edges together: a session is placed where it is more probable than `min_probability`, given
+/// all its pairs with the others. One that is not is left out and named, never left at identity.
 AlignmentResult placeSessions(const std::vector<registration::PartialModel>& parts, double min_probability,
                               std::vector<AlignmentEdge> edges);
 

@@ -14,7 +14,7 @@ struct PartialModelOptions
 {
   double spacing_m = 0.002;  ///< of the points
   int max_points = 8000;     ///< a larger object gets wider spaced ones
-  int max_views = 12;        ///< keyframes that tell of empty space and give features, spread over the directions
+  int max_views = 12;        ///< keyframes used for empty space and features, spread over the directions
   int max_features = 400;    ///< per view; 0: shape and colour of the surface alone
   bool use_color = true;
   std::vector<std::string> violations() const;

@@ -20,12 +20,12 @@ struct BundleAdjustmentOptions
   /// Where surfaces are steep a shift of a third of a pixel makes the whole model 0.1 % too small.
   bool calibrate_color_offset = true;
   /// Find what the intrinsics and the depth are off by, first of all, from landmarks; the rest is then done on frames
-  /// corrected by it. The ratio of depth is the scale of everything, which no recording tells: it stays within its
-  /// prior, and its sigma says so.
+  /// corrected by it. The ratio of depth is the scale of everything, which no recording determines: it stays within
+  /// its prior, and its sigma is that of the prior.
   bool calibrate_intrinsics = false;
   bool calibrate_depth_ratio = false;
   bool calibrate_depth_offset = false;
-  bool calibrate_depth_distortion = false;  ///< wide scenes with texture tell it; a plain one bends with it
+  bool calibrate_depth_distortion = false;  ///< determined by wide scenes with texture; plain ones bend
   bool object_only = false;                 ///< only observations on the object mask (turntable, object in motion)
   bool calibratesSensor() const
   {

@@ -6,7 +6,7 @@
 
 namespace object_modelling::calibration
 {
-/// Distortion of a sensor's depth as one recording tells it.
+/// Distortion of a sensor's depth as estimated from one recording.
 struct DistortionEstimate
 {
   rgbd::DistortionGrid::Ratios ratio{};
@@ -16,15 +16,15 @@ struct DistortionEstimate
 struct DistortionMean
 {
   rgbd::DistortionGrid::Ratios ratio{};
-  double size_ratio = 0;          ///< RMS of what the recordings tell, the more certain knots counting more
-  double disagreement_ratio = 0;  ///< RMS of what each tells minus the mean of the others, likewise; 0 if there is none
-  /// The others foretell what a recording tells, to half at least. Never so of one recording alone: what is wrong with
-  /// its poses looks like distortion too.
+  double size_ratio = 0;          ///< RMS of the recordings' estimates, knots weighted by their certainty
+  double disagreement_ratio = 0;  ///< RMS of each estimate minus the mean of the others, likewise; 0 for one
+  /// The mean of the others predicts at least half of each estimate. Never true of a single recording: errors of its
+  /// poses look like distortion too.
   bool agrees = false;
 };
 
 /// Mean of the estimates, each knot weighted by its inverse variance. By the same weights it is 0 on the mean of all
-/// knots: nothing tells the scale of everything, which stays as it was.
+/// knots: the overall scale is not determined and stays as it was.
 DistortionMean meanDistortion(const std::vector<DistortionEstimate>& estimates);
 
 }  // namespace object_modelling::calibration

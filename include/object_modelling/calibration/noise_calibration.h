@@ -72,8 +72,9 @@ struct NoiseCalibration
 /// Measures a depth sensor on a recording of a flat wall or door, seen from several distances and angles. Per frame a
 /// plane is fitted robustly to inverse depth. In blocks of 32 x 32 px, what is left about a plane of their own is axial
 /// noise; the offsets of these from the frame's plane are smooth distortion. The wall's straight rim against a far
-/// background tells the lateral noise, by how its pixels fray. Bias against distance needs `distances`: one wall alone
-/// cannot tell how far it is. What the recording does not show keeps its default, and `coefficients` says so.
+/// background gives the lateral noise, by the scatter of its edge pixels. Bias against distance needs `distances`: a
+/// wall alone does not determine its distance. What the recording does not determine keeps its default, as reported in
+/// `coefficients`.
 /// Deterministic. Throws base::Error (BAD_INPUT) for distances of which none belongs to a frame.
 NoiseCalibration calibrateNoise(source::FrameSource& source, const std::vector<MeasuredDistance>& distances,
                                 const NoiseCalibrationOptions& options, base::JobControl& control);

@@ -9,7 +9,7 @@
 
 namespace object_modelling::database
 {
-/// What manifest.yaml and object.yaml say of an object; no geometry loaded.
+/// Contents of manifest.yaml and object.yaml for one object; no geometry loaded.
 struct ObjectEntry
 {
   std::string id, name;

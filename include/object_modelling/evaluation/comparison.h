@@ -41,8 +41,8 @@ struct Comparison
 };
 
 /// The measure of Aldoma et al. 2015, section 4: the model is registered to a reference (there a laser scan), then the
-/// distances of its points to the reference's surface are taken. It tells how right the surface is that the model has,
-/// not how much of the object it lacks.
+/// distances of its points to the reference's surface are taken. It measures the accuracy of the model's surface,
+/// not its completeness.
 Comparison compareToReference(const std::vector<Eigen::Vector3d>& points_model, const mesh::ReferenceSurface& surface,
                               const ComparisonOptions& options, base::JobControl& control);
 

@@ -11,13 +11,13 @@ namespace object_modelling::keyframes
 /// That a stage has been done on a session, and how.
 struct StageMark
 {
-  std::string by;       ///< what did it; empty: not done. Unknown where a store from before marks says that it was
-  std::string options;  ///< YAML of what it was asked for; empty where that is not known
+  std::string by;       ///< what did it; empty: not done; `unknown`: done, by a store older than marks
+  std::string options;  ///< YAML of the options; empty where not known
   bool done() const { return !by.empty(); }
   bool operator==(const StageMark& other) const { return by == other.by && options == other.options; }
 };
 
-/// What `by` of a mark says.
+/// Values of StageMark::by.
 namespace stage_mark
 {
 constexpr char UNKNOWN[] = "unknown";
@@ -38,7 +38,7 @@ struct Session
   bool closed = false;  ///< recording has ended
   std::optional<geometry::Plane> support_plane_session;  ///< normal up
   std::optional<Eigen::Isometry3d> T_model_session;      ///< placed in the model frame; empty until aligned
-  /// Of the sensor that recorded it; what the noise model knows of bias is off the stored depth already.
+  /// Of the sensor that recorded it; the bias of the noise model is already removed from the stored depth.
   rgbd::SensorCalibration calibration;
   std::string refinement_report;  ///< YAML of the last bundle adjustment; empty if there was none
   StageMark refined;              ///< by a method of refinement (pipeline::RefinementMethod)

@@ -54,8 +54,8 @@ public:
   virtual std::string importSession(const std::string& path) = 0;
 };
 
-/// All keyframes of a session, ascending; each is decoded while the next one is fetched. `progress` is told how many of
-/// how many have come, and may throw.
+/// All keyframes of a session, ascending; each is decoded while the next one is fetched. `progress` gets the number
+/// of keyframes loaded and their total, and may throw.
 std::vector<rgbd::Keyframe> loadKeyframes(SessionStore& store, const std::string& session_id,
                                           const std::function<void(std::size_t, std::size_t)>& progress = {});
 

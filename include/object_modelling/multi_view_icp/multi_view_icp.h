@@ -72,7 +72,7 @@ struct FreeDirection
 struct MultiViewIcpResult
 {
   /// NO_RESULT: nothing overlaps, or not converged; poses are then those that came in. Bodies that have not converged
-  /// are OK: they are where the error was least, and last_step_m and last_step_rad say what is left.
+  /// are OK: they have the poses of least error; last_step_m and last_step_rad give the last change.
   base::Status status;
   std::vector<Eigen::Isometry3d> T_world_camera;  ///< per view, in the order given
   std::vector<geometry::Matrix6d> covariance;     ///< likewise; that which came in for the fixed one and those left out

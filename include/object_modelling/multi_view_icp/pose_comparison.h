@@ -18,7 +18,7 @@ struct PoseScore
   double total() const { return depth + gray; }
 };
 
-/// What one refinement says of the views, in their order, in place of what they bring.
+/// Poses of the views by one refinement, in the order of the views; they replace the poses stored there.
 struct PoseSet
 {
   std::vector<Eigen::Isometry3d> T_world_camera;

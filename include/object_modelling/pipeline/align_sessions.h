@@ -33,7 +33,7 @@ std::vector<registration::PartialModel> loadParts(keyframes::SessionStore& store
                                                   base::JobControl& control);
 
 /// Places the sessions of one object relative to the first that fits another (the model frame is set when the object is
-/// built), and keeps what was found for every pair, refused ones too. Where it cannot be kept, the message says so.
+/// built), and stores the result of every pair, refused ones too. A failure to store is reported in the message.
 alignment::AlignmentResult alignStoredParts(keyframes::SessionStore& store,
                                             const std::vector<registration::PartialModel>& parts,
                                             const AlignOptions& options, base::JobControl& control);

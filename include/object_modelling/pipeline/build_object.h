@@ -22,7 +22,7 @@ struct BuildOptions
   texture::TextureOptions texture;
   bool replace = false;     ///< allow another object frame for an object that exists with none of these sessions
   bool make_report = true;  ///< report.html, which takes a few seconds
-  /// Sessions of the object that `placements` lacks, from leftOutOf(): with any, the object is partial, and says so.
+  /// Sessions of the object that `placements` lacks, from leftOutOf(): with any, the object is marked as partial.
   std::vector<database::LeftOutSession> left_out;
   std::vector<std::string> violations() const;
 };

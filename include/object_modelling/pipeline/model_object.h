@@ -36,7 +36,7 @@ public:
 
 struct ModelOutcome
 {
-  /// Of the build, and then what the alignment says; of the alignment alone where too few sessions fit. OK with a
+  /// Of the build, followed by the alignment's message; of the alignment alone where too few sessions fit. OK with a
   /// message: the object is there, but partial, or without texture or report.
   base::Status status;
   bool built = false;                  ///< false: too few sessions fit, or the status is that of a failed build

@@ -19,7 +19,7 @@ enum class Required
 };
 
 /// Makes of what was found what is required. The best session alone is one that a model has already, whose frame so
-/// stays; or else the one that saw most of the surface; of equals the first. The message of an OK says which.
+/// stays; or else the one that saw most of the surface; of equals the first. The message of an OK names it.
 void require(Required required, keyframes::SessionStore& store, const std::vector<registration::PartialModel>& parts,
              alignment::AlignmentResult* aligned);
 

@@ -33,7 +33,7 @@ struct RecordedFrame
 {
   rgbd::Frame frame;                     ///< in `object` mode with the masks that it was tracked by
   tracking::TrackingResult result;       ///< its keyframe has been committed
-  base::Status object;                   ///< in `object` mode: NO_RESULT where the object cannot be told from the rest
+  base::Status object;                   ///< in `object` mode: NO_RESULT where the object cannot be segmented
   std::optional<double> newest_stamp_s;  ///< of the session; set where this frame is not newer and was not tracked
   double track_ms = 0;                   ///< tracker alone
 };
@@ -43,7 +43,7 @@ struct EndedSession
 {
   std::string id;
   int keyframe_count = 0;
-  bool created = false;  ///< the sink knows of it
+  bool created = false;  ///< in the sink
 };
 
 /// From frames to a stored session: follows the object, tracks, counts, and commits the session's record and its
@@ -55,7 +55,7 @@ public:
   SessionRecorder(const SessionRecorderOptions& options, SessionSink* sink);
 
   /// Begins a session of this id and object. One whose camera_frame_id is set is created in the sink now, another with
-  /// its first frame, which tells that and when it started. FAILED_PRECONDITION while one is being recorded.
+  /// its first frame, which gives that id and the start time. FAILED_PRECONDITION while one is being recorded.
   void start(const keyframes::Session& session);
   /// Continues a session of the sink: its keyframes become the map. INVALID_ARGUMENT without a sink.
   void resume(const std::string& session_id);
@@ -95,7 +95,7 @@ private:
   tracking::CameraTracker tracker_;
   keyframes::Session session_;
   bool recording_ = false;
-  bool created_ = false;  ///< the sink knows of the session
+  bool created_ = false;  ///< the session exists in the sink
   bool resumed_ = false;
   bool lost_ = false;
   std::optional<double> newest_stamp_s_;  ///< of the session since it was started or resumed

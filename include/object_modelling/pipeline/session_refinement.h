@@ -38,8 +38,8 @@ struct ComparedPoses
 
 struct SessionRefinement
 {
-  /// OK if one of the steps succeeded. One that fails leaves the poses to the other; both tell their own status. The
-  /// message says why other poses than those of the method that was asked for were taken.
+  /// OK if one of the steps succeeded. If one fails, the other's poses are used; each has its own status. The
+  /// message gives the reason where poses of another method than the requested one were taken.
   base::Status status;
   std::vector<int> keyframe_ids;                    ///< of the keyframes, which are multi_view_icp's views
   std::vector<Eigen::Isometry3d> T_session_camera;  ///< of each of them: those that fit best

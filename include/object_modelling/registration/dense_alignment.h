@@ -10,7 +10,7 @@ namespace object_modelling::registration
 struct DenseAlignmentOptions
 {
   /// Neighbouring pixels err alike (interpolation, calibration, smooth distortion of depth): this many of them, at the
-  /// finest level for depth, say as much as one independent measurement.
+  /// finest level for depth, weigh as much as one independent measurement.
   double correlated_depths = 120;
   double correlated_intensities = 10;
   int max_iterations = 8;  ///< per level

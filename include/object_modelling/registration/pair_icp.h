@@ -22,7 +22,7 @@ struct PairIcpOptions
 
 /// Point-to-plane ICP of part b on part a (Chen and Medioni 1992), with the colours of the surface where asked for
 /// (after Park, Zhou, Koltun 2017). Directions that the surfaces leave free
-/// stay, but for those that the other's support plane tells, unless coarse.
+/// are not changed, except those that the other's support plane constrains, unless coarse.
 Eigen::Isometry3f alignByIcp(const MatchedSurface& a, const MatchedSurface& b, const Eigen::Isometry3f& T_a_b,
                              const PairIcpOptions& options);
 

@@ -9,7 +9,7 @@ namespace object_modelling::registration
 /// fine ones.
 PairQuality measurePair(const PartPair& pair, const Eigen::Isometry3f& T_a_b, bool many);
 
-/// Whether most of the views that tell of a point, in their session's frame, look through it.
+/// Whether most of the views that observe the place of point p, in their session's frame, see through it.
 bool seenThrough(const std::vector<SpaceView>& views, const Eigen::Vector3f& p);
 
 /// Share of the points of b that lie on a.

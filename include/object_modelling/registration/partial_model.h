@@ -13,7 +13,7 @@
 
 namespace object_modelling::registration
 {
-/// What one view knows of space: empty up to the depth it measured.
+/// Space observed by one view: empty up to the measured depth.
 struct SpaceView
 {
   geometry::PinholeCamera camera;
@@ -28,7 +28,7 @@ struct ObjectFeatures
 {
   std::vector<Eigen::Vector3f> points;  ///< session frame
   cv::Mat descriptors;                  ///< one row per point
-  int norm = 0;                         ///< cv::NormTypes that tells them apart
+  int norm = 0;                         ///< cv::NormTypes for comparing them
 };
 
 /// The part of an object's surface that one session saw, thinned for matching. Points, normals and both colours have
@@ -43,7 +43,7 @@ struct PartialModel
   std::vector<Eigen::Vector3f> colors;
   std::vector<Eigen::Matrix<std::uint8_t, 3, 1>> colors_rgb;  ///< as recorded, for people
   double spacing_m = 0;
-  std::string doubt;  ///< why it may be of another shape than the object; empty if nothing says so
+  std::string doubt;  ///< why its shape may differ from the object's; empty: no reason found
   std::optional<geometry::Plane> support_plane;
   std::vector<SpaceView> views;
   std::vector<ObjectFeatures> features;

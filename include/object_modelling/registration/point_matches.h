@@ -6,7 +6,7 @@
 
 namespace object_modelling::registration
 {
-/// Points of two parts, each in its frame, that local features tell are the same.
+/// Corresponding points of two parts, each in its part's frame, matched by local features.
 struct PointMatch
 {
   Eigen::Vector3f a, b;

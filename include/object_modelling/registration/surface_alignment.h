@@ -14,7 +14,7 @@ namespace object_modelling::registration
 class SurfaceView
 {
 public:
-  /// The frame's object mask, if it has one, says what counts.
+  /// Only pixels of the frame's object mask count, if it has one.
   explicit SurfaceView(const rgbd::Frame& frame);
   ~SurfaceView();
   SurfaceView(SurfaceView&&) noexcept;

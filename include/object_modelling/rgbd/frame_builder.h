@@ -28,7 +28,7 @@ struct FrameBuilderOptions
   double min_depth_ratio = 0.001;        ///< share of pixels that must have depth
   double min_depth_m = 0.1;              ///< nearer or farther readings count as missing
   double max_depth_m = 8.0;
-  SensorNoiseModel noise_model;  ///< goes with every frame; what it knows of bias and colour offset is taken off
+  SensorNoiseModel noise_model;  ///< copied to every frame; its bias and colour offset are removed
   std::vector<std::string> violations() const;
 };
 

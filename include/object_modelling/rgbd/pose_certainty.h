@@ -32,7 +32,7 @@ struct PathCertainty
   std::vector<std::size_t> unknown;  ///< indices of views whose pose is not known; all zero covariances are believed
   PoseSigma worst;                   ///< of those
   /// More than half are unknown, or fewer than two would be left. Then none is better than others: the covariances are
-  /// relative to the first keyframe, and say nothing of the others among themselves.
+  /// relative to the first keyframe and do not bound the others relative to each other.
   bool doubtful = false;
 
   bool allKnown() const { return unknown.empty(); }
@@ -40,7 +40,7 @@ struct PathCertainty
 
 PathCertainty pathCertainty(const std::vector<View>& views);
 
-/// What a person is told, with what to do about it; empty where all are known. `keyframe_ids`: of the views.
+/// Message for the user, with a remedy; empty where all are known. `keyframe_ids`: of the views.
 std::string describe(const PathCertainty& path, const std::vector<int>& keyframe_ids, const std::string& session_id);
 
 /// Takes out the views that are not known, unless the path is doubtful: gives the indices of those that stay.

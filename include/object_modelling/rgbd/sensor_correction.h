@@ -6,8 +6,8 @@
 
 namespace object_modelling::rgbd
 {
-/// What a sensor is off by, for all its frames alike. The sigmas are 0 where nothing was estimated; as large as the
-/// prior's they say that the recording did not tell.
+/// Systematic error of a sensor, the same for all its frames. The sigmas are 0 where nothing was estimated; sigmas as
+/// large as the prior's mean that the recording did not determine the value.
 struct SensorCorrection
 {
   Eigen::Vector2d focal_ratio{ 1, 1 };         ///< true fx, fy over those given

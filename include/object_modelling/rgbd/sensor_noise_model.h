@@ -11,7 +11,7 @@
 namespace object_modelling::rgbd
 {
 /// Noise of a depth sensor. The defaults are a Kinect's after Nguyen, Izadi, Lovell: Modeling Kinect Sensor Noise for
-/// Improved 3D Reconstruction and Tracking, 3DIMPVT 2012; docs/noise_model.md tells how to measure those of another.
+/// Improved 3D Reconstruction and Tracking, 3DIMPVT 2012; docs/noise_model.md: how to measure another sensor's.
 ///
 ///   sigma_z = axial_constant + axial_quadratic (z - axial_vertex)^2
 ///             + axial_grazing / sqrt(z) theta^2 / (90 deg - theta)^2   if theta > axial_grazing_from

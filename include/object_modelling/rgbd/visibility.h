@@ -8,7 +8,7 @@
 
 namespace object_modelling::rgbd
 {
-/// What a depth image tells of a point.
+/// Visibility of a point in a depth image.
 enum class Visibility
 {
   OUTSIDE,   ///< it does not project into the image

@@ -14,8 +14,8 @@ class FramePublisher
 public:
   FramePublisher(ros::NodeHandle& node, const std::string& frame_id);
 
-  /// `raw_camera` is the camera before rectification; K and D of the CameraInfo tell of it, P of frame.camera. The mask
-  /// is published if the frame has one.
+  /// `raw_camera` is the camera before rectification; K and D of the CameraInfo describe it, P describes frame.camera.
+  /// The mask is published if the frame has one.
   void publish(const rgbd::Frame& frame, const ros::Time& color_stamp, const ros::Time& depth_stamp,
                const geometry::PinholeCamera& raw_camera);
 
@@ -25,8 +25,8 @@ public:
     return color_.getNumSubscribers() > 0 && depth_.getNumSubscribers() > 0 && info_.getNumSubscribers() > 0;
   }
 
-  /// Whether every node that the master knows as a subscriber of one of the topics has connected to it: before that, it
-  /// would miss a part of the first frame. Asks the master.
+  /// Whether every subscriber registered with the master for one of the topics has connected to it: before that, it
+  /// would miss a part of the first frame. Calls the master.
   bool allConnected() const;
 
 private:

@@ -16,7 +16,7 @@ namespace object_modelling::ros_bridge
 geometry_msgs::Pose toPoseMessage(const Eigen::Isometry3d& T_target_source);
 geometry_msgs::Transform toTransformMessage(const Eigen::Isometry3d& T_target_source);
 /// `covariance` as geometry::Matrix6d has it; in the message it is that of the position and of rotations about the
-/// target's axes, through the source's origin, as ROS wants.
+/// target's axes, through the source's origin, as ROS defines it.
 geometry_msgs::PoseWithCovariance toMessage(const Eigen::Isometry3d& T_target_source,
                                             const geometry::Matrix6d& covariance);
 

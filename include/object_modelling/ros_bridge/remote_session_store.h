@@ -45,7 +45,8 @@ public:
   std::string importSession(const std::string& path) override;
 
 private:
-  /// Throws what the response's status says. `kept`: a connection for many calls that only read; else one for this.
+  /// Throws the error of the response's status, if any. `kept`: a connection for many calls that only read; else one
+  /// for this.
   template <typename Service>
   void call(const char* name, Service& service, ros::ServiceClient* kept = nullptr);
 

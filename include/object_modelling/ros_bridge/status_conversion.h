@@ -8,13 +8,13 @@ namespace object_modelling::ros_bridge
 {
 object_modelling::Status toMessage(const base::Status& status);
 
-/// A code that this version does not know becomes INTERNAL, with the number in the message.
+/// A code unknown to this version becomes INTERNAL, with the number in the message.
 base::Status fromMessage(const object_modelling::Status& message);
 
-/// Throws what a response's status says.
+/// Throws base::Error with a response's code and message unless the code is OK.
 void throwUnlessOk(const object_modelling::Status& message);
 
-/// Runs `body` and turns whatever it throws into a Status: base::Error as it says, all else as INTERNAL.
+/// Runs `body` and converts whatever it throws to a Status: base::Error with its code, all else to INTERNAL.
 template <typename Body>
 base::Status guarded(Body&& body)
 {

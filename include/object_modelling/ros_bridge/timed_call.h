@@ -64,7 +64,7 @@ ros::ServiceClient connected(ros::NodeHandle node, const std::string& resolved_n
   return node.serviceClient<Service>(resolved_name, true);
 }
 
-/// One call of a service, relative to the node handle. Throws what the response's status says.
+/// One call of a service, relative to the node handle. Throws the error of the response's status, if any.
 template <typename Service>
 void callInTime(const ros::NodeHandle& node, const std::string& name, const CallLimits& limits, Service& service)
 {

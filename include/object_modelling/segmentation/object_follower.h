@@ -23,7 +23,7 @@ struct ObjectFollowerOptions
 /// Where the object is in one frame.
 struct FollowedObject
 {
-  base::Status status;  ///< NO_RESULT with the reason where the object cannot be told from the rest
+  base::Status status;  ///< NO_RESULT with the reason where the object cannot be segmented
   cv::Mat mask;         ///< CV_8UC1, 255 on the object; empty unless ok
   cv::Mat turntable;    ///< CV_8UC1, 255 on what turns with it; empty where there is none
 

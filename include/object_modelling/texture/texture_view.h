@@ -33,8 +33,8 @@ struct Sighting
   Eigen::Vector2f color_px{ 0, 0 };  ///< in the colour image
 };
 
-/// The world of the views is the mesh's frame. Views without colour image are left out; result[i] tells its view by
-/// frame. Throws base::Error (BAD_INPUT) for images that do not fit the camera.
+/// The world of the views is the mesh's frame. Views without colour image are left out; result[i].frame gives the view
+/// of result[i]. Throws base::Error (BAD_INPUT) for images that do not fit the camera.
 std::vector<TextureView> prepareTextureViews(const mesh::TriangleMesh& mesh, const std::vector<rgbd::View>& views);
 
 Sighting sight(const TextureView& view, const Eigen::Vector3f& p_mesh, const Eigen::Vector3f& n_mesh);

@@ -43,7 +43,7 @@ struct TextureResult
 /// there or disagree with the rest; weights fade where a view ends, so that texels, weighted means over the views, have
 /// no seams to be levelled. Exposure and white balance of all views are solved together beforehand; where views of
 /// several sessions overlap, each under a light of its own, they are levelled to the same colour. Charts are pieces
-/// of surface of about one direction, laid flat. Texels that nobody saw are filled in harmonically and marked.
+/// of surface of about one direction, laid flat. Texels that no view observed are filled in harmonically and marked.
 /// Deterministic. In the spirit of Waechter et al. 2014, "Let There Be Color!", with blending in place of single views.
 TextureResult textureMesh(const mesh::TriangleMesh& mesh, const std::vector<rgbd::View>& views,
                           const TextureOptions& options, base::JobControl& control);
