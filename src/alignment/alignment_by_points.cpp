@@ -14,7 +14,7 @@ namespace object_modelling::alignment
 {
 namespace
 {
-constexpr double MIN_WIDTH_M = 0.01;      // of the points across their line: else nothing tells the turn about it
+constexpr double MIN_WIDTH_M = 0.01;      // of the points across their line: else the turn about it is not determined
 constexpr double MAX_MISMATCH_M = 0.015;  // rms: a person hits the same spot within some millimetres
 constexpr double MAX_MOVE_RATIO = 0.15;   // of the part's radius that ICP may move it from where the person put it
 constexpr double MAX_TURN_RAD = 0.25;
@@ -80,7 +80,7 @@ PairCandidate alignByPoints(const registration::PartialModel& a, const registrat
   const Eigen::Isometry3d T_a_b = geometry::normalised(refined.cast<double>());
   const bool near = geometry::rotationAngle_rad(clicked.inverse() * T_a_b) < MAX_TURN_RAD &&
                     (clicked * centre - T_a_b * centre).norm() < MAX_MOVE_RATIO * part_a.radius_m;
-  // Where surfaces would slide away, the person knows better.
+  // Where ICP would slide along the surfaces, the pose by the points is kept.
   if (!near)
     quality = registration::measurePair(pair, clicked.cast<float>(), true);
   quality.probability = 1 / (1 + std::exp(-logOdds(quality, options.same_pose_probability)));

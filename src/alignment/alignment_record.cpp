@@ -14,7 +14,7 @@ namespace object_modelling::alignment
 {
 namespace
 {
-constexpr std::size_t KEPT_CANDIDATES = 8;  // enough to tell again which poses score alike
+constexpr std::size_t KEPT_CANDIDATES = 8;  // enough to find again the poses that score alike
 constexpr char SAME_OBJECT[] = "same_object_probability";
 constexpr double MAX_ROTATION_ERROR = 1e-6;
 
@@ -94,7 +94,7 @@ AlignmentEdge parsed(const keyframes::AlignmentRecord& record)
   edge.reason = node["reason"].as<std::string>();
   for (const YAML::Node& candidate : node["candidates"])
     edge.candidates.push_back(candidateFrom(candidate));
-  // Of an older record nothing tells which make the same object.
+  // Older records do not contain which poses make the same object.
   if (!edge.candidates.empty() && !node["candidates"][0][SAME_OBJECT])
     edge.candidates.front().same_object_probability = 1;
   if (edge.accepted && edge.candidates.empty())

@@ -12,9 +12,9 @@ namespace
 {
 constexpr double MAX_CYCLE_ROTATION_RAD = 0.09;   // 5 deg ...
 constexpr double MAX_CYCLE_TRANSLATION_M = 0.01;  // ... of the object
-constexpr double CERTAIN = 1e-6;                  // left to doubt by a person's word
+constexpr double CERTAIN = 1e-6;                  // probability left to doubt for a pair placed by a person
 constexpr double DOUBT = 3e-3;                    // left to it at least by what was found
-constexpr double SURELY_SAME = 1 - 1e-9;          // of candidates: what is left to either alone cannot be told
+constexpr double SURELY_SAME = 1 - 1e-9;          // above it a candidate has no share of its own
 constexpr double REFUSED_RATIO = 0.9;             // of what is needed: at most, of an edge that was refused
 
 /// Undoes what joined the poses that make the same object: p_i = own_i + q_i (p_lead - own_i), and p_lead the sum of

@@ -67,9 +67,9 @@ public:
   double noneProbability(int edge) const;
   /// That two candidates of an edge make the same object, by way of the leading one.
   double sameObjectProbability(int edge, std::size_t one, std::size_t other) const;
-  /// How probable it is that an edge agrees with a wrong pose by this candidate or another: the more of them make one
-  /// object, the less it tells. A pose that other edges imply is there whether it is right or not, so that
-  /// only what its own surfaces say counts.
+  /// Probability that an edge agrees with a wrong pose by this candidate or another: the more of them make one object,
+  /// the weaker the evidence of an agreement. A pose implied by other edges is there whether it is right or not, so
+  /// that only the evidence of its own surfaces counts.
   double chance(int edge, std::size_t candidate) const;
   /// What an edge makes of a pose, against chance.
   double support(int edge, const std::optional<std::size_t>& agreeing) const;

@@ -17,7 +17,7 @@ constexpr float MAX_DISTANCE_M = 0.006F;  // of a feature's point from its partn
 constexpr int SAMPLES = 3000;
 constexpr int MIN_UPHOLDING = 6;
 constexpr std::size_t MAX_PROPOSALS = 10;
-constexpr float MIN_SIDE_RATIO = 0.15F;  // of the part's radius: nearer points say little of rotation
+constexpr float MIN_SIDE_RATIO = 0.15F;  // of the part's radius: nearer points hardly constrain rotation
 
 std::optional<Eigen::Isometry3f> poseFrom(const std::vector<registration::PointMatch>& matches,
                                           const std::vector<int>& chosen)

@@ -15,8 +15,8 @@ namespace object_modelling::alignment
 {
 namespace
 {
-/// What is left at most, and at least, after each sieve; between them stay those that score much as the best does: of
-/// something round that is all, and colours have yet to tell.
+/// What is left at most, and at least, after each sieve; between them stay those whose score is close to the best: for
+/// round objects all, since colours are compared later only.
 struct Sieve
 {
   std::size_t least, most;

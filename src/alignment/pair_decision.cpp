@@ -147,9 +147,9 @@ bool fitsAtAll(const registration::PairQuality& quality, const PairAlignmentOpti
   return quality.overlap_ratio >= options.min_overlap_ratio && quality.fsv_ratio <= MAX_FSV_RATIO;
 }
 
-/// Of a pose at which nobody had turned the object over there may be one that makes the same object, at which somebody
-/// had, and which would do alone: the most probable such one then leads. A can fits its upright self best, and lying
-/// down as well as it can. Whether there is one; `others` are then against the former first.
+/// Puts first the most probable pose at which the object had been turned over, if the first is one at which it had not,
+/// both make the same object, and the turned one would be accepted alone. A can, for example, fits best upright.
+/// Returns whether there is such a pose; `others` are compared with the former first pose.
 bool leadByTurned(const std::vector<Compared>& others, const PairAlignmentOptions& options,
                   std::vector<PairCandidate>* candidates)
 {
@@ -197,7 +197,7 @@ double countImpliedOnce(const std::vector<Compared>& others, std::vector<PairCan
   return off;
 }
 
-/// What the other poses say of the best one.
+/// Evidence of the other poses against the best one.
 struct Rivals
 {
   const PairCandidate* candidate = nullptr;  ///< most probable one that makes another object; null: none to speak of

@@ -80,7 +80,7 @@ FeatureVector featuresOf(const registration::PairQuality& quality)
   at(Feature::THROUGH) = -std::min(quality.fsv_ratio, MOST_FSV_RATIO) / FSV_UNIT_RATIO;
   at(Feature::FIT) = -std::log(std::max(quality.rmse_m, 1e-5) / std::hypot(SURFACE_SIGMA_M, quality.roughness_m));
   at(Feature::CONTACT) = contactFeature(quality);
-  // Little in common tells little of texture.
+  // A small overlap is weak evidence of texture.
   const double share = std::min(1.0, quality.overlap_ratio / ENOUGH_OVERLAP);
   const double variance = quality.texture * quality.texture, edges = quality.edge_strength * quality.edge_strength;
   const double difference = variance * (1 - quality.color_agreement) - quality.light_variance;

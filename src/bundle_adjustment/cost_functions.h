@@ -13,7 +13,7 @@
 
 namespace object_modelling::bundle_adjustment
 {
-/// What a residual needs to know of its keyframe. The optimised block of 6 is a motion xi = (t, r) on the left of this
+/// A keyframe's part of a residual. The optimised block of 6 is a motion xi = (t, r) on the left of this
 /// pose: T_camera_session(xi) = [R(r) | t] * T_camera_session. It starts at 0 and stays small, so that rotation vectors
 /// never come near their singularity and no manifold is needed (its Ceres interface changed with 2.1).
 struct LinearisedCamera
@@ -58,7 +58,7 @@ class DepthCost : public ceres::SizedCostFunction<2, 6, 3, 2, 1, 1>
 {
 public:
   /// The depth was read at the landmark's pixel in the colour image. Where the images are offset that is beside it by
-  /// the offset, and `slope_m_px` tells what the depth is there.
+  /// the offset, and `slope_m_px` is the gradient of depth there, metres per pixel.
   DepthCost(const LinearisedCamera* camera, double depth_m, const Eigen::Vector2d& slope_m_px, double sigma_m)
       : camera_(camera), depth_m_(depth_m), slope_m_px_(slope_m_px), sigma_m_(sigma_m)
   {

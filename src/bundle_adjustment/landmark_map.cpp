@@ -14,7 +14,7 @@ namespace object_modelling::bundle_adjustment
 {
 namespace
 {
-// Rays that meet at less than about 1 deg do not tell the depth of a point.
+// Rays that meet at less than about 1 deg do not determine the depth of a point.
 constexpr double MIN_RAY_SPREAD = 1e-4;
 
 bool usable(const rgbd::Observation& observation, const rgbd::Frame& frame, bool object_only)

@@ -13,7 +13,7 @@ constexpr int SAMPLE_STEP_PX = 24;
 constexpr double RIM_RATIO = 0.15;
 constexpr double DEPTH_RATIO = 0.2;
 // Preemptive matching (Wu, Towards Linear-time Incremental Structure from Motion, 3DV 2013): the few features of
-// largest scale tell whether two images show the same thing.
+// largest scale decide whether two images show the same thing.
 constexpr int PREEMPTIVE_FEATURES = 150;
 constexpr int PREEMPTIVE_MATCHES = 6;
 

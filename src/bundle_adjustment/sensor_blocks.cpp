@@ -12,7 +12,7 @@ namespace object_modelling::bundle_adjustment
 {
 namespace
 {
-// As sensors come from the factory. What no sight tells stays where it is, and has these sigmas.
+// Prior: tolerances of sensors as manufactured. What no observation determines keeps its value and these sigmas.
 constexpr double COLOR_OFFSET_SIGMA_PX = 1;
 constexpr double FOCAL_SIGMA_RATIO = 0.02;
 constexpr double PRINCIPAL_SIGMA_PX = 10;
@@ -125,7 +125,7 @@ void SensorBlocks::finish(const BundleSolverOptions& options, ceres::Problem* pr
     else
       problem->SetParameterBlockConstant(block);
   };
-  // Where no depth has a slope nothing but the prior tells the offset of the colour images.
+  // Where no depth has a slope only the prior constrains the offset of the colour images.
   finish_block(options.calibrate_color_offset, Eigen::Vector2d(COLOR_OFFSET_SIGMA_PX, COLOR_OFFSET_SIGMA_PX),
                color_offset_px.data());
   finish_block(options.calibrate_intrinsics,

@@ -72,8 +72,8 @@ std::optional<SurfaceLink> linkPair(const std::vector<registration::SurfaceView>
   if (round_trip.translation().norm() > MAX_CONTRADICTION_M ||
       geometry::rotationAngle_rad(round_trip) > MAX_CONTRADICTION_RAD)
     return std::nullopt;
-  // The mean of both. Their errors are much the same, so it knows no more than one; how far they are apart tells of
-  // what neither knows.
+  // The mean of both. Their errors are strongly correlated, so its covariance is that of one; their difference is a
+  // measure of the error that neither covariance contains.
   const geometry::Vector6d half =
       0.5 * geometry::vectorFromIsometry(backwards->T_a_b.inverse() * forwards->T_a_b.inverse());
   // The covariance grows by half half^T; in terms of the information, as that may leave directions free (Sherman and
@@ -115,8 +115,8 @@ struct ShiftedViews
   std::vector<registration::SurfaceView> back, forth;
 };
 
-/// Links of images shifted a little to both sides, along x and along y, tell how the link depends on the offset. (Both
-/// sides, since interpolation does the same to either.)
+/// Derivative of the link by the colour offset, by central differences: links of images shifted a little to both sides,
+/// along x and along y. (Both sides, since interpolation smooths either alike.)
 void findByColorOffset(const std::array<ShiftedViews, 2>& shifted, SurfaceLink* link)
 {
   constexpr auto NEAR = registration::SurfaceStart::NEAR;

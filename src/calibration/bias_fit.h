@@ -11,7 +11,7 @@ namespace object_modelling::calibration
 /// at d instead of D is wrong by the share 1 - D / d, where it is faced: only
 /// frames within 25 deg of that count. As many coefficients as the distances carry: constant
 /// for one place, with a linear term for two, quadratic for three that span a metre. Without distances the bias keeps
-/// its default, and the report says why. Adds to `coefficients`.
+/// its default, and the report gives the reason. Adds to `coefficients`.
 void fitBias(const std::vector<WallView>& views, const std::vector<MeasuredDistance>& distances,
              NoiseCalibration* calibration);
 

@@ -14,7 +14,7 @@
 
 namespace object_modelling::cli
 {
-/// What a command has to say: `text` for people, `json` for programs; one of them is printed on stdout.
+/// Output of a command: `text` for people, `json` for programs; one of them is printed on stdout.
 struct CommandOutput
 {
   std::string text;

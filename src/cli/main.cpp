@@ -65,7 +65,7 @@ int execute(const cli::Command& command, bool json, bool quiet)
     if (output.status.ok())
       return 0;
     status = output.status;
-    json = false;  // has been said
+    json = false;  // already printed
   }
   catch (const base::Error& error)
   {

@@ -76,7 +76,7 @@ protected:
   void onBuilt(const pipeline::BuildReport& built) override { built_ = built; }
 
 private:
-  /// What is told of a session, in the order in which sessions were first told of.
+  /// Output for a session; sessions are in the order of their first entry.
   nlohmann::json& of(const std::string& session_id)
   {
     nlohmann::json& sessions = output_->json["sessions"];
@@ -163,7 +163,7 @@ pipeline::LocalStagesOptions stagesOptions(const Arguments& arguments)
   return options;
 }
 
-/// What became of the sessions. Where not all fit though they are required to, the output's status says so.
+/// Adds the outcome for every session. The output's status is an error where not all fit though all are required.
 void tell(const pipeline::ModelOutcome& outcome, const PrintedStages& stages, const std::string& object_id,
           CommandOutput* output)
 {

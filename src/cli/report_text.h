@@ -19,7 +19,7 @@ nlohmann::json toJson(const pipeline::RecordReport& report);
 nlohmann::json toJson(const bundle_adjustment::BundleAdjustmentResult& result);
 /// `keyframe_ids`: of the views.
 nlohmann::json toJson(const multi_view_icp::MultiViewIcpResult& result, const std::vector<int>& keyframe_ids);
-/// As of bundle adjustment where that took part, with what multi-view ICP says under "multi_view_icp".
+/// As of bundle adjustment where that took part, with the result of multi-view ICP under "multi_view_icp".
 nlohmann::json toJson(const pipeline::SessionRefinement& refined);
 nlohmann::json toJson(const pipeline::SegmentReport& report);
 nlohmann::json toJson(const alignment::AlignmentResult& result);

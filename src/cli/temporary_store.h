@@ -7,7 +7,7 @@
 
 namespace object_modelling::cli
 {
-/// A keyframe store in a temporary folder of its own, removed with it; for runs whose sessions nobody asked to keep.
+/// A keyframe store in a temporary folder of its own, removed with it; for runs whose sessions are not kept.
 class TemporaryStore
 {
 public:

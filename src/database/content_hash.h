@@ -13,7 +13,7 @@ std::string hashOfFile(const std::string& path);
 
 /// Of every file in a folder, by path relative to it, sorted; without object.yaml, which holds this list, without
 /// recognition/, which is derived from the object and carries the hash of what it was derived from, and without the
-/// report, which tells how long the build took and so is another one every time.
+/// report, which contains the time of the build and so differs every time.
 std::map<std::string, std::string> hashesOfFolder(const std::string& folder);
 
 /// Writes report.sha256: the hashes of those files of the report that are there, as sha256sum does.

@@ -70,7 +70,7 @@ void publishManifest(const std::string& root)
   base::syncToDisk(root);
 }
 
-/// What the manifest has to say of the object in a folder.
+/// The manifest's entry for the object in a folder.
 ListedObject listedFrom(const std::string& folder)
 {
   ListedObject listed{ hashOfFile(folder + "/object.yaml"), false };
@@ -85,7 +85,7 @@ ListedObject listedFrom(const std::string& folder)
   return listed;
 }
 
-/// A prepared manifest tells that a change was under way. The folders say how far it came.
+/// After an interrupted change, marked by a prepared manifest: the folders' state becomes the manifest's.
 void reconcileManifest(const std::string& root)
 {
   if (!fs::exists(root + "/" + NEXT_MANIFEST))

@@ -5,7 +5,7 @@
 
 namespace object_modelling::database
 {
-/// What a manifest says of one object.
+/// A manifest's entry for one object.
 struct ListedObject
 {
   std::string content_hash;

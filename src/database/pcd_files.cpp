@@ -71,7 +71,7 @@ void write(const std::string& path, const pcl::PCLPointCloud2& cloud)
   throw Error(StatusCode::BAD_INPUT, path + " cannot be read: " + reason + "; build the object again");
 }
 
-/// PCL maps the file and trusts its sizes, so a truncated one would end the process.
+/// PCL maps the file without checking its sizes, so a truncated one would end the process.
 void checkLength(const std::string& path, const pcl::PCLPointCloud2& header, int data_type, std::size_t data_offset)
 {
   constexpr int BINARY = 1, BINARY_COMPRESSED = 2;
@@ -128,7 +128,7 @@ pcl::PCLPointCloud2 read(const std::string& path)
   {
     throw;
   }
-  catch (const std::exception& error)  // PCL's own, and whatever a hostile header makes it ask for
+  catch (const std::exception& error)  // PCL's own, and std::bad_alloc for sizes of a malformed header
   {
     damaged(path, error.what());
   }

@@ -15,7 +15,7 @@ namespace object_modelling::features
 {
 namespace
 {
-// Triples this much shorter than the point set say little about rotation.
+// Shorter triples hardly constrain rotation.
 constexpr double MIN_TRIPLE_EDGE_M = 0.01;
 constexpr int REFINEMENTS = 8;
 constexpr double CONFIDENCE = 0.999;
@@ -61,7 +61,7 @@ std::vector<int> inliersOf(const Eigen::Isometry3d& T_a_b, const std::vector<Poi
   return inliers;
 }
 
-/// A rigid motion keeps lengths: tells most wrong triples before any pose is computed.
+/// A rigid motion keeps lengths: rejects most wrong triples before any pose is computed.
 bool lengthsAgree(const PointPair& first, const PointPair& second, double gate_squared_m2)
 {
   const double length_a = (first.p_a - second.p_a).norm(), length_b = (first.p_b - second.p_b).norm();

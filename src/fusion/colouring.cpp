@@ -14,7 +14,7 @@ namespace
 {
 constexpr int BEST_VIEWS = 8;             ///< per surfel; more blur the texture
 constexpr float MIN_COSINE = 0.05f;       ///< flatter sights count as if they were so flat
-constexpr float FULL_RIM_DISTANCE = 4.f;  ///< px from the mask's rim from which on colour is trusted in full
+constexpr float FULL_RIM_DISTANCE = 4.f;  ///< px from the mask's rim from which on colour has full weight
 constexpr int GAIN_ITERATIONS = 3;
 
 struct Sample

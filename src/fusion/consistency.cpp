@@ -19,7 +19,7 @@ bool seesThrough(const PreparedView& view, const Eigen::Vector3f& point, float t
 Votes castVotes(const std::vector<PreparedView>& views, const SurfacePoint& surface, double consistency_sigmas,
                 int own_view)
 {
-  // Every observation asks the views: of long sessions some, evenly, are enough to tell.
+  // Views that vote on an observation; of more, so many evenly chosen ones.
   constexpr int MAX_VOTERS = 64;
   const int count = static_cast<int>(views.size()), voters = std::min(count, MAX_VOTERS);
   Votes votes;

@@ -28,7 +28,7 @@ struct SurfacePoint
   float axial_sigma_m = 0;
 };
 
-/// Views that look at the point from behind its normal have a say only if they see through it. A view sees through only
+/// Views that look at the point from behind its normal vote only if they see through it. A view sees through only
 /// if it does so all the way to `farthest`: else noise that moves a point off the object's silhouette would be cut off
 /// on the outside and left on the inside, and the object would shrink.
 Votes castVotes(const std::vector<PreparedView>& views, const SurfacePoint& surface, double consistency_sigmas,

@@ -17,7 +17,7 @@ public:
     tree_.buildIndex();
   }
 
-  // The interface that nanoflann asks for.
+  // The interface that nanoflann requires.
   std::size_t kdtree_get_point_count() const { return points_.size(); }
   Scalar kdtree_get_pt(std::size_t index, std::size_t axis) const
   {

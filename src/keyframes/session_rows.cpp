@@ -88,7 +88,7 @@ Session sessionFrom(const SessionRow& row)
   return session;
 }
 
-/// What a change says of the optional columns.
+/// A change's values of the optional columns.
 Session sessionWith(const SessionChange& change)
 {
   Session session;

@@ -67,7 +67,7 @@ public:
   void addKeyframe(const std::string& session_id, const rgbd::Keyframe& keyframe) override
   {
     checkSessionId(session_id);
-    const EncodedKeyframe row = encodeKeyframe(keyframe);  // outside the transaction: nobody waits for the compression
+    const EncodedKeyframe row = encodeKeyframe(keyframe);  // outside the transaction: it must not wait for compression
     connection_.write(sessionText(session_id),
                       [&](soci::session& sql) { insertKeyframe(sql, connection_.dialect(), session_id, row); });
   }

@@ -39,7 +39,7 @@ void checkMark(const std::string& session_id, const std::string& name, const Sta
   checkText(session_id, name, mark.options);
 }
 
-/// An update that names a keyframe twice says two things; which one is meant is not ours to guess.
+/// Refuses an update that names a keyframe twice, since its values may differ.
 template <typename Update>
 void checkDistinct(const std::string& session_id, const std::vector<Update>& updates)
 {

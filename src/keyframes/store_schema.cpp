@@ -51,7 +51,7 @@ void addStageMarks(soci::session& sql, const SqlDialect&)
 {
   for (const char* column : { "refined_by", "refined_options", "segmented_by", "segmented_options" })
     sql << "ALTER TABLE sessions ADD COLUMN " << column << " TEXT NOT NULL DEFAULT ''";
-  // Up to here, side products told that a stage had been done; how is not known.
+  // Before this version only a stage's by-products show that it was done; how is not known.
   sql << "UPDATE sessions SET refined_by = 'unknown' WHERE refinement_report <> ''";
   sql << "UPDATE sessions SET segmented_by = 'unknown' WHERE support_plane_session IS NOT NULL";
 }

@@ -76,7 +76,7 @@ void writeMesh(const std::string& path, const TriangleMesh& mesh)
   if (!defect.empty())
     throw base::Error(base::StatusCode::INVALID_ARGUMENT, "no mesh for '" + path + "': " + defect);
 
-  // Written beside its place and renamed, so that nobody ever reads half a mesh.
+  // Written beside its place and renamed, so that no reader gets half a mesh.
   const std::string part = path + ".part";
   checkWritable(path, part);
   try

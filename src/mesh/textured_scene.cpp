@@ -21,7 +21,7 @@ constexpr unsigned MAX_HINT = 3;
   throw base::Error(base::StatusCode::BAD_INPUT, reason);
 }
 
-/// Vertices told apart by their place on the texture.
+/// Vertices split by their texture coordinates.
 struct SplitVertices
 {
   std::vector<std::pair<std::uint32_t, Eigen::Vector2f>> vertices;

@@ -15,8 +15,8 @@ namespace object_modelling::mesh
 std::unique_ptr<aiScene> makeTexturedScene(const TexturedMesh& textured, const std::string& texture_file,
                                            const std::vector<unsigned char>& embedded_png);
 
-/// The other way; `folder` is where files of textures lie. Throws base::Error (BAD_INPUT), the message says what is
-/// wrong.
+/// The other way; `folder` is where files of textures lie. Throws base::Error (BAD_INPUT), with the reason
+/// in the message.
 TexturedMesh fromTexturedScene(const aiScene& scene, const std::string& folder);
 
 }  // namespace object_modelling::mesh

@@ -13,9 +13,9 @@ namespace object_modelling::multi_view_icp
 namespace
 {
 constexpr double MIN_COMMON_RATIO = 0.05;  // of a view's points: fewer may lie on another surface by chance
-constexpr int POINT_STEP = 3;              // every so many of a view's points tell
-// Neighbouring points err alike, some 30 of them say as much as one (icp_report.cpp): ten times as much for each of the
-// six unknowns of a body.
+constexpr int POINT_STEP = 3;              // one of so many of a view's points is used
+// Neighbouring points err alike, some 30 of them weigh as much as one (icp_report.cpp): ten times as much for each of
+// the six unknowns of a body.
 constexpr double MIN_COMMON_POINTS = 1800;
 
 /// Number of b's points that lie, within noise, on the surface that a sees.

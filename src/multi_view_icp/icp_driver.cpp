@@ -50,7 +50,7 @@ double displacement_m(const geometry::Vector6d& motion, const Eigen::Isometry3d&
 class Solver
 {
 public:
-  /// `few_bodies`: so few that it is quick to tell what holds them from noise.
+  /// `few_bodies`: so few that the part of their information that is due to noise is quick to compute.
   Solver(const std::vector<int>& bodies, bool few_bodies, IcpProblem* problem, IcpOutcome* outcome)
       : bodies_(bodies), few_bodies_(few_bodies), problem_(*problem), outcome_(*outcome)
   {

@@ -18,9 +18,9 @@ struct IcpEdge
 /// Each view with its best partners by predicted overlap, of another body. Ordered by (a, b).
 std::vector<IcpEdge> overlapGraph(const std::vector<rgbd::View>& views, const MultiViewIcpOptions& options);
 
-/// Each view with its best partners by `ratio`, which tells for (a, b) how much of b's surface a sees and counts as
-/// the smaller of both ways: half of them those that share most, half spread over the others, which hold the whole
-/// together better than neighbours alone do. Ordered by (a, b).
+/// Each view with its best partners by `ratio`: (a, b) is the share of b's surface that a sees, in [0, 1]; the smaller
+/// of both ways counts. Half of them those that share most, half spread over the others, which hold the whole together
+/// better than neighbours alone do. Ordered by (a, b).
 std::vector<IcpEdge> edgesBetweenPartners(const Eigen::MatrixXd& ratio, double min_ratio, int max_partners);
 
 /// The sets of views that the edges, and their bodies, connect; each ascending.

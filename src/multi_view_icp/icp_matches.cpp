@@ -61,7 +61,7 @@ bool searchPartner(const IcpView& a, const geometry::Projection<float>& at, cons
   return std::isfinite(best);
 }
 
-/// Whether the poses say that a sees the point: within the image, and not hidden.
+/// Whether a sees the point by the current poses: within the image, and not hidden.
 bool inView(const IcpView& a, const geometry::Projection<float>& at, const Eigen::Vector3f& q, const Eigen::Vector3f& n,
             float gate_m)
 {

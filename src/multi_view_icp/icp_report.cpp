@@ -9,16 +9,16 @@ namespace object_modelling::multi_view_icp
 {
 namespace
 {
-// Neighbouring points err alike (interpolation, calibration, smooth distortion of depth): so many say as much as one.
+// Neighbouring points err alike (interpolation, calibration, smooth distortion of depth): so many weigh as much as one.
 constexpr double CORRELATED_POINTS = 30;
-constexpr double UNKNOWN_M = 1, UNKNOWN_RAD = 1;  // sigma of what the pairs say nothing of
-constexpr double FREE_M = 0.02;                   // of points on the surface: a larger sigma is no knowledge
-constexpr double LEVER_M = 0.1;                   // size of an object, by which angles compare with lengths
-constexpr double AXIS_DISTANCE_M = 1;             // a rotation about an axis farther away counts as a translation
+constexpr double UNKNOWN_M = 1, UNKNOWN_RAD = 1;  // sigma of directions that the pairs do not constrain
+constexpr double FREE_M = 0.02;        // of points on the surface: a direction of larger sigma counts as free
+constexpr double LEVER_M = 0.1;        // size of an object, by which angles compare with lengths
+constexpr double AXIS_DISTANCE_M = 1;  // a rotation about an axis farther away counts as a translation
 constexpr int DEPTH_STEP_PX = 16;
 
-/// What is left of the information of a pair without what noise pretends to know: A v = lambda N v names the directions
-/// by how much more they are known than by noise (as in the tracker's dense alignment).
+/// Information of a pair less the part due to noise: A v = lambda N v gives directions v with lambda, the ratio of
+/// their information to the noise's (as in the tracker's dense alignment).
 geometry::Matrix6d withoutNoise(const geometry::Matrix6d& A, const geometry::Matrix6d& noise)
 {
   geometry::Matrix6d N = noise;

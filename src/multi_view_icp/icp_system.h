@@ -11,8 +11,8 @@ namespace object_modelling::multi_view_icp
 constexpr double NOISE_FACTOR = 2;
 
 /// Half the squared error of what ties views a and b together is about cost + g d + d A d / 2, where d is a's
-/// motion minus b's, both on the left of T_world_camera. Moving both alike changes nothing, so this is all there is
-/// to know.
+/// motion minus b's, both on the left of T_world_camera. Moving both alike changes nothing, so the relative motion
+/// suffices.
 struct PairEquations
 {
   int a = -1, b = -1;

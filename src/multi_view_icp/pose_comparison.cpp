@@ -18,7 +18,7 @@ constexpr double MAX_OFF_SIGMAS = 12;      // at the best of the poses: beyond, 
 constexpr double SLANT = 1.5;              // what slanted surfaces and the grid of pixels add to the noise of depth
 constexpr int MAX_DRAWS = 20;              // for a sample with depth
 constexpr std::size_t MAX_PARTNERS = 100;  // of a view, evenly over the others: time grows with their product
-constexpr std::size_t FIRST = 64;          // samples that tell whether two views may be a pair
+constexpr std::size_t FIRST = 64;          // samples that decide whether two views may be a pair
 
 struct Sample
 {

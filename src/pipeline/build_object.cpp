@@ -78,7 +78,7 @@ texture::TextureResult textured(const mesh::TriangleMesh& mesh, const std::vecto
   }
 }
 
-/// A model is worth having without its report, but whoever built it is told.
+/// A model without its report is kept, with a warning for the user.
 std::string reportWarning(const std::string& folder, const std::string& object_id, const std::string& database_root,
                           base::JobControl& control)
 {
@@ -152,7 +152,7 @@ private:
   geometry::OrientedBox box_reference_;
   fusion::CloudFusionResult fused_;
   texture::TextureResult texture_;
-  std::vector<std::string> warnings_;  ///< do not cost the model, but whoever built it is told; empty ones count not
+  std::vector<std::string> warnings_;  ///< the model is kept; reported to the user; empty ones are skipped
   database::ObjectModel model_;
 };
 

@@ -12,7 +12,7 @@ namespace object_modelling::pipeline
 class Refiner
 {
 public:
-  /// Options with what the session says: object_only. `color_offset_px`: of the frames, as far as it is known before.
+  /// `options`, with object_only as the session has it. `color_offset_px`: of the frames, as far as it is known before.
   /// `control` must outlive this.
   Refiner(RefinementOptions options, std::vector<rgbd::Keyframe> keyframes, const Eigen::Vector2d& color_offset_px,
           base::JobControl& control);

@@ -108,7 +108,7 @@ void SessionRecorder::track(const std::optional<Eigen::Isometry3d>& T_robot_came
   using Clock = std::chrono::steady_clock;
   if (onObject())
   {
-    // Without a mask the tracker says itself that the frame cannot be placed.
+    // Without a mask the tracker itself reports that the frame cannot be placed.
     const segmentation::FollowedObject object = follower_.follow(recorded->frame);
     recorded->object = object.status;
     recorded->frame.object_mask = object.mask;

@@ -14,8 +14,8 @@ namespace object_modelling::pipeline
 {
 namespace
 {
-/// The turntable of a keyframe whose recording did not say what moves with the object; empty where there is none. The
-/// tracker knows better than a single view whether something is one: it has landmarks there.
+/// The turntable of a keyframe whose recording has no masks of what moves with the object; empty where there is none.
+/// The tracker's decision is better than a single view's: it has landmarks there.
 cv::Mat turntableOf(const rgbd::Keyframe& keyframe)
 {
   constexpr int MIN_LANDMARKS = 5;
@@ -78,7 +78,7 @@ SessionRefinement refineSessionBy(keyframes::SessionStore& store, const std::str
   const keyframes::Session session = store.session(session_id);
   options.bundle_adjustment.object_only |= session.reference_is_object;
   options.multi_view_icp.object_only |= session.reference_is_object;
-  // What one session tells of the offset is less than a calibration does.
+  // A calibration determines the offset better than one session.
   if (session.calibration.noise_model.shiftsColor())
     options.bundle_adjustment.calibrate_color_offset = false;
   std::vector<rgbd::Keyframe> keyframes = loadReported(store, session_id, control);

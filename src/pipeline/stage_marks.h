@@ -7,10 +7,10 @@
 
 namespace object_modelling::pipeline
 {
-/// What a session says of its refinement: whose poses were taken, what was compared, and the options.
+/// A session's mark of its refinement: whose poses were taken, what was compared, and the options.
 keyframes::StageMark refinementMark(const RefinementOptions& options, const SessionRefinement& refined);
 
-/// What a session says of its segmentation: whether a person named the object, and where.
+/// A session's mark of its segmentation: whether a person named the object, and where.
 keyframes::StageMark segmentationMark(const std::optional<Eigen::Vector3d>& seed_point_session,
                                       const segmentation::ObjectMaskPropagatorOptions& options);
 

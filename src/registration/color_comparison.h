@@ -6,7 +6,7 @@
 
 namespace object_modelling::registration
 {
-/// Compares what two parts say of the colours of the surface that they have in common, each under its own light.
+/// Compares the colours of two parts on their common surface, each under its own light.
 class ColorComparison
 {
 public:

@@ -19,10 +19,10 @@ constexpr std::size_t MIN_POINTS = 60;
 constexpr float GRADIENT_NOISE = 0.5F;        // grey levels per pixel: sensor and compression
 constexpr float GRADIENT_NOISE_RATIO = 0.1F;  // of a gradient: staircases of edges, interpolation
 constexpr float NORMAL_NOISE_PX = 8;          // a normal is as unsure as depth is, over this many pixels
-constexpr int NOISE_SAMPLES = 8;              // every so many residuals tell of their noise
+constexpr int NOISE_SAMPLES = 8;              // one of so many residuals is used to estimate their noise
 constexpr double NOISE_FACTOR = 2;            // information beyond that many times the noise's counts
 
-/// Cauchy's weight: what is far off (occlusion, highlights) has little say, but enough to pull a poor start right.
+/// Cauchy's weight: outliers (occlusion, highlights) have little weight, but enough to correct a poor start.
 float cauchyWeight(float residual_scales)
 {
   constexpr float WIDTH = 2.385F;  // 95 % efficient for normal errors
@@ -126,8 +126,8 @@ geometry::Matrix6d noiseOf(const DenseResiduals& residuals, const DenseLevel& le
   return noise.A;
 }
 
-/// Takes away what noise pretends to know: A v = lambda N v names the directions by how much more they are known than
-/// by noise, and each keeps the rest. Its minimum stays where it is.
+/// Removes the information due to noise: A v = lambda N v gives directions v with lambda, the ratio of their
+/// information to the noise's; each keeps the excess. The minimum does not move.
 void removeNoise(const geometry::Matrix6d& noise, geometry::NormalEquations* equations)
 {
   geometry::Matrix6d N = noise;

@@ -16,7 +16,7 @@ constexpr int MAX_FINEST_WIDTH = 200;  // px: VGA and its neighbours begin at a 
 constexpr std::size_t LEVEL_COUNT = 3;
 constexpr float SURFACE_STEP_RATIO = 0.015F;   // of depth per pixel of the finer level
 constexpr double MIN_GRADIENT = 6;             // grey levels per pixel
-constexpr std::size_t MAX_GRID_POINTS = 1200;  // per level: more of them tell no more ...
+constexpr std::size_t MAX_GRID_POINTS = 1200;  // per level: more of them add no information ...
 constexpr std::size_t MAX_EDGE_POINTS = 1200;  // ... for neighbours err alike
 
 /// Every second pixel of `depth_m` (or every step-th), averaged with those neighbours that lie on the same surface.

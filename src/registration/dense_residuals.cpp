@@ -17,7 +17,7 @@ constexpr float SYSTEMATIC_DEPTH_RATIO = 0.001F;  // of depth: calibration, whic
 constexpr float AGREEMENT_SIGMAS = 3;
 constexpr float AGREEMENT_RATIO = 0.005F;  // of depth, for what calibration and oblique surfaces add
 constexpr float MIN_FACING_COSINE = 0.15F;
-constexpr int SCALE_SAMPLES = 3;  // every so many residuals tell the robust scale well enough
+constexpr int SCALE_SAMPLES = 3;  // one of so many residuals is used to estimate the robust scale
 
 /// Bilinear intensity and the central differences at it.
 void sampleIntensity(const cv::Mat& gray, const geometry::SubPixel& at, float* value, float* gradient_x,

@@ -14,7 +14,7 @@ public:
   /// Adds a point: how its colours differ, and its normal, always in the same frame.
   void add(const Eigen::Vector3f& difference, const Eigen::Vector3f& normal);
 
-  /// What the points added so far tell; before that, no difference.
+  /// Estimates the difference from the points added so far; before the first call it is none.
   void solve();
 
   Eigen::Vector3f at(const Eigen::Vector3f& normal) const;

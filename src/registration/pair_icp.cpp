@@ -12,12 +12,12 @@ namespace object_modelling::registration
 namespace
 {
 constexpr float SAME_SIDE_COSINE = 0.5F;
-constexpr float FREE_DIRECTION_WEIGHT = 1e-5F;  // of the mean information: what nothing holds, stays
+constexpr float FREE_DIRECTION_WEIGHT = 1e-5F;  // of the mean information: what nothing constrains stays
 constexpr float CONTACT_WEIGHT =
-    0.01F;  // of the mean information: the other's support plane tells what surfaces do not
+    0.01F;  // of the mean information: the other's support plane constrains what surfaces do not
 constexpr float MAX_CONTACT_RATIO = 0.12F;  // of the part's radius; what is farther off does not stand there
 constexpr float MIN_COLOR_SIGMA = 0.08F;    // of what texture differs by between sessions: light, focus
-constexpr float SURFACE_SIGMA_M = 0.0003F;  // of fused points; next to it colours only say what shape leaves open
+constexpr float SURFACE_SIGMA_M = 0.0003F;  // of fused points; colours decide only what shape leaves open
 constexpr float MIN_SCALE_M = 0.001F;
 constexpr int MIN_PAIRS = 20;
 

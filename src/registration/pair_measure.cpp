@@ -40,8 +40,8 @@ struct SurfaceComparison
   EdgeComparison edges;
 };
 
-/// Whether the views see a point in front of what they measured, or on it: most of them decide, so that the noise of a
-/// silhouette in one view says nothing.
+/// Whether the views see a point in front of what they measured, or on it: the majority decides, so that the noise of a
+/// silhouette in one view has no effect.
 void compareWithViews(const std::vector<SpaceView>& views, const Eigen::Vector3f& p, SurfaceComparison* comparison)
 {
   int front = 0, upheld = 0;

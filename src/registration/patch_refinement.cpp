@@ -96,7 +96,7 @@ LevelOutcome alignAtLevel(const PatchTemplate& patch, const cv::Mat& image, cons
     outcome.pixel += step;
     if ((outcome.pixel - start).norm() > options.max_displacement_px)
       return outcome;
-    // The correlation is that before the last step, which is too small to tell.
+    // The correlation is that before the last step, which is too small to matter.
     outcome.converged = step.norm() < options.convergence_px;
   }
   return outcome;

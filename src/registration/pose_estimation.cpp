@@ -34,13 +34,13 @@ double squaredError_px(const Correspondence& correspondence, const Eigen::Vector
 }
 
 /// Whether there is a measured depth that fits the predicted one. One that does not (another surface at an edge, colour
-/// and depth exposed at different times) says nothing of the landmark's pixel.
+/// and depth exposed at different times) is no evidence against the landmark's pixel.
 bool depthCounts(const Correspondence& correspondence, double z_m, const PoseEstimationOptions& options)
 {
   return std::abs(correspondence.depth_m - z_m) <= options.depth_gate_sigmas * depthSigma_m(z_m, options);
 }
 
-/// Hypotheses are told apart by both: landmarks whose measured depth contradicts count half.
+/// Hypotheses are ranked by both: landmarks whose measured depth contradicts count half.
 double score(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
              const Eigen::Isometry3d& T_camera_world, const PoseEstimationOptions& options)
 {

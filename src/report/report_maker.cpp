@@ -52,7 +52,7 @@ process::environment environmentFor(const fs::path& own_folder)
   return environment;
 }
 
-/// The last line, which is where Python says what was wrong.
+/// The last line, which is Python's error message.
 std::string lastLine(std::FILE* file)
 {
   std::rewind(file);

@@ -15,7 +15,7 @@ namespace
 {
 constexpr double MAX_TRANSLATION_RATIO = 0.02;  // of the depth
 constexpr double MAX_ROTATION_RAD = 0.02;
-constexpr double MOST_SHOWN = 1e6;       // in texts: beyond it digits say nothing
+constexpr double MOST_SHOWN = 1e6;       // in texts: beyond it digits are meaningless
 constexpr double NEGATIVE_RATIO = 1e-6;  // of the greatest variance, by rounding
 constexpr std::size_t MIN_KNOWN = 2;     // a surface is what two views see
 constexpr std::size_t MOST_NAMED = 12;   // of keyframes in a text

@@ -15,7 +15,7 @@ namespace object_modelling::ros_bridge
 {
 namespace
 {
-/// Runs `body`; what is wrong with the file is said with its path and a remedy.
+/// Runs `body`; errors of the file are thrown with its path and a remedy.
 template <typename Body>
 auto readingBag(const std::string& path, Body&& body)
 {

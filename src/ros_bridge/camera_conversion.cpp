@@ -30,7 +30,7 @@ std::vector<double> distortionOf(const sensor_msgs::CameraInfo& info)
           "\" is not supported; use plumb_bob or rational_polynomial, or rectify the images (image_proc)");
 }
 
-/// The matrices tell of the full image; what is delivered is a region of it, binned.
+/// The matrices describe the full image; the delivered image is a region of it, binned.
 void applyRegionAndBinning(const sensor_msgs::CameraInfo& info, geometry::PinholeCamera* camera)
 {
   const int bin_x = std::max(1u, info.binning_x), bin_y = std::max(1u, info.binning_y);

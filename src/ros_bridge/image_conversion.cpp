@@ -43,7 +43,7 @@ void checkLayout(const sensor_msgs::Image& message)
                         std::to_string(message.data.size()) + " bytes");
 }
 
-/// The same image with rows that follow one another; cv_bridge wants whole steps and cv::Mat steps of whole elements.
+/// The same image without padding between rows: cv_bridge needs whole steps, cv::Mat steps of whole elements.
 sensor_msgs::Image compact(const sensor_msgs::Image& message)
 {
   sensor_msgs::Image result;

@@ -12,8 +12,8 @@ namespace
 {
 constexpr double UNIT_LENGTH_TOLERANCE = 1e-3;
 
-/// A small motion (t, r) on the left of T moves the source's origin p by t + r x p; ROS asks for that displacement and
-/// r, we keep t and r. With `sign` +1 the Jacobian from ours to that of ROS, with -1 the way back.
+/// A small motion (t, r) on the left of T moves the source's origin p by t + r x p; ROS uses that displacement and
+/// r, this package t and r. With `sign` +1 the Jacobian from ours to that of ROS, with -1 the way back.
 geometry::Matrix6d displacementOf(const Eigen::Vector3d& p_target, double sign)
 {
   geometry::Matrix6d jacobian = geometry::Matrix6d::Identity();

@@ -11,7 +11,7 @@ namespace
 {
 constexpr double THINNED_WIDTH_PX = 160;
 constexpr int MIN_PIXELS = 60;
-constexpr double MIN_TEXTURE = 6;  // standard deviation in grey levels; plainer surfaces tell nothing
+constexpr double MIN_TEXTURE = 6;  // standard deviation in grey levels; motion of plainer surfaces is not observable
 constexpr double CHANGED_CORRELATION = 0.75;
 constexpr double SAME_CORRELATION = 0.93;
 constexpr double MOVED_OVERLAP_RATIO = 0.6;

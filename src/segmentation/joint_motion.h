@@ -5,7 +5,7 @@
 namespace object_modelling::segmentation
 {
 /// Whether what carries an object moves when the object does: a turntable, or a tray on which somebody turns the
-/// object. Compares the image with an earlier one, without knowing any motion. Not thread safe.
+/// object. Compares the image with an earlier one, without a known motion. Not thread safe.
 class JointMotion
 {
 public:

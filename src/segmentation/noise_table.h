@@ -17,7 +17,8 @@ class NoiseTable
 public:
   explicit NoiseTable(const rgbd::SensorNoiseModel& model);
 
-  /// The table of a model. Those of the last few models are kept, for a frame's segmentation asks several times.
+  /// The table of a model. Those of the last few models are kept, for the segmentation of a frame needs it several
+  /// times.
   static std::shared_ptr<const NoiseTable> of(const rgbd::SensorNoiseModel& model);
 
   /// cos_theta in [0, 1], of the angle between normal and viewing ray; clamped at 85 deg, where the model diverges.

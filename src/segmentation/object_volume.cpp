@@ -10,7 +10,7 @@ namespace object_modelling::segmentation
 {
 namespace
 {
-/// A view that shows a neighbour apart from the object says more than one in which the two run together.
+/// Votes of a view in which a neighbour is separate from the object; a view in which they touch has one vote.
 constexpr int NEIGHBOUR_VOTES = 2;
 }  // namespace
 

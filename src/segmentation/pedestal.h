@@ -9,7 +9,7 @@ namespace object_modelling::segmentation
 {
 struct PedestalOptions
 {
-  double noise_scale = 1;        ///< how much rougher the plane is measured than the noise model says
+  double noise_scale = 1;        ///< ratio of the plane's measured noise to the noise model's
   double min_size_m = 0.2;       ///< what is smaller is a saucer, and part of the object
   double max_size_m = 0.6;       ///< what is larger is a table
   double max_level_ratio = 0.3;  ///< of the surroundings that go on at the plane's height

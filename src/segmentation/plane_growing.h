@@ -21,7 +21,7 @@ struct GrownPlane
 {
   geometry::Plane plane;  ///< normal towards the camera
   PlaneMoments moments;
-  double noise_scale = 1;  ///< at least 1: how much rougher the plane is measured than the noise model says
+  double noise_scale = 1;  ///< at least 1: ratio of the plane's measured noise to the noise model's
 };
 
 struct GrownPlanes

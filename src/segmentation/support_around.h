@@ -13,7 +13,7 @@ struct LocalSupport
 {
   geometry::Plane plane_camera;
   PlaneMoments moments;    ///< of the points that made it, in the camera frame
-  double noise_scale = 1;  ///< at least 1: how much rougher it is measured than the noise model says
+  double noise_scale = 1;  ///< at least 1: ratio of its measured noise to the noise model's
 };
 
 /// The support as this view sees it within `area`, near a plane that is known: the depth sensor's distortion and the

@@ -25,7 +25,7 @@ bool isJpeg(const std::string& bytes)
   return bytes.size() > 2 && bytes.compare(0, 2, "\xff\xd8") == 0;
 }
 
-/// The decoder fills up a JPEG that has been cut off with gray and calls it good; its end marker tells.
+/// Whether a JPEG is truncated: its end marker is missing. The decoder fills it up with gray and reports no error.
 bool cutOffJpeg(const std::string& bytes)
 {
   return isJpeg(bytes) &&

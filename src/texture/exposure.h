@@ -9,7 +9,7 @@
 namespace object_modelling::texture
 {
 /// Logarithm of a colour; nothing where it is near black, or a channel near white and clipped. A channel that is near
-/// black by itself, as blue is of yellow things, counts as the darkest that tells anything.
+/// black by itself, as blue is of yellow things, counts as the darkest usable value.
 std::optional<Eigen::Vector3f> logColor(const Eigen::Vector3f& bgr);
 
 /// Gain per view and channel (BGR) that brings all views of a place to the same colour: least squares over the

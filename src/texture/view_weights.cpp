@@ -135,7 +135,7 @@ void outvoteOutliers(const mesh::TriangleMesh& mesh, const std::vector<TextureVi
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(weights->size()); ++i)
   {
     std::vector<VertexView>& of_vertex = (*weights)[i];
-    if (of_vertex.size() < 3)  // of two nobody can tell which is wrong
+    if (of_vertex.size() < 3)  // of two, the outlier cannot be identified
       continue;
     std::vector<Eigen::Vector3f> colors;
     std::vector<float> tolerances;

@@ -14,7 +14,7 @@ namespace
 constexpr double MAX_REFERENCE_ANGLE_RAD = 1.0;  // a view turned further shares no patch that could be recognised
 constexpr double DISTRUST_RAD = 0.35;            // as good as a trusted view that much further round
 const cv::Size THUMBNAIL_SIZE(40, 30);
-constexpr double COMPACT_DEPTH_UNIT_M = 0.00025;  // sensors tell no finer; reaches 16 m
+constexpr double COMPACT_DEPTH_UNIT_M = 0.00025;  // sensors resolve no finer; reaches 16 m
 
 double viewAngle_rad(const Eigen::Isometry3d& T_a, const Eigen::Isometry3d& T_b)
 {

@@ -58,7 +58,7 @@ private:
 /// Small normalised image of a view for MapKeyframe::thumbnail.
 cv::Mat makeThumbnail(const cv::Mat& gray);
 
-/// Keyframes of one session and the questions that tracking asks about them. Not thread safe.
+/// Keyframes of one session and the queries of tracking. Not thread safe.
 class KeyframeMap
 {
 public:

@@ -35,7 +35,8 @@ struct MapMatchingOptions
 };
 
 /// Projective patch refinement (Aldoma et al. 2015, section 3.1): the landmarks of the nearest keyframes, predicted by
-/// a pose, found sub-pixel by their warped patches. `flow_pixels` are better starts where optical flow knows them.
+/// a pose, found sub-pixel by their warped patches. `flow_pixels`: pixels by optical flow, better starts where there
+/// are any.
 MapMatches matchMap(const KeyframeMap& map, const rgbd::Frame& frame, const registration::ImagePyramid& pyramid,
                     const Eigen::Isometry3d& T_session_camera,
                     const std::unordered_map<std::uint64_t, Eigen::Vector2f>& flow_pixels,

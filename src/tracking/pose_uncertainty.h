@@ -17,9 +17,9 @@ geometry::Matrix6d handMotionCovariance(double elapsed_s);
 /// The same for a robot that measures its motion.
 geometry::Matrix6d robotMotionCovariance(double translation_sigma_m, double rotation_sigma_rad);
 
-/// What neither landmarks nor surfaces tell of: errors that all measurements against one keyframe share (calibration,
-/// smooth distortion of depth, images exposed while the camera moves). `error_rad`: how far off the rays of the
-/// landmarks are; what makes single ones err has a part that they share.
+/// Errors that the residuals of landmarks and surfaces do not show, since all measurements against one keyframe share
+/// them (calibration, smooth distortion of depth, images exposed while the camera moves). `error_rad`: error of the
+/// landmarks' rays, of which a part is common to all.
 geometry::Matrix6d systematicCovariance(double depth_m, double error_rad);
 
 /// A predicted pose as least squares: what was known before (session frame), and of the motion since (camera frame).
@@ -27,8 +27,8 @@ registration::QuadraticTerm predictionTerm(const Eigen::Isometry3d& T_session_ca
                                            const geometry::Matrix6d& covariance_before,
                                            const geometry::Matrix6d& covariance_of_motion);
 
-/// Whether a pose is where a prediction says it is not: 50 is far beyond all quantiles of chi-squared with 6 degrees of
-/// freedom.
+/// Whether a pose contradicts a prediction: squared Mahalanobis distance above 50, far beyond all quantiles of
+/// chi-squared with 6 degrees of freedom.
 bool contradicts(const registration::PoseEstimate& pose, const registration::QuadraticTerm& prediction);
 
 /// Why a pose is not known in all directions, given its covariance in the camera frame; empty if it is.

@@ -14,7 +14,7 @@ namespace object_modelling::tracking
 namespace
 {
 constexpr double LOST_SIGMA = 1;            // m and rad, of a camera that may be anywhere
-constexpr double SHAPE_ERROR_RAD = 0.001;   // of rays, where surfaces alone tell
+constexpr double SHAPE_ERROR_RAD = 0.001;   // of rays, where surfaces alone determine the pose
 constexpr double TRUSTED_RMSE_RATIO = 0.5;  // of the inlier gate; wrong poses fill the gate evenly, which gives 0.7
 
 int countTrusted(const std::vector<LandmarkMatch>& matches)
@@ -23,7 +23,7 @@ int countTrusted(const std::vector<LandmarkMatch>& matches)
       std::count_if(matches.begin(), matches.end(), [](const LandmarkMatch& match) { return match.trusted; }));
 }
 
-/// What surfaces that fit, and a prediction where there is one, say of a pose.
+/// Quadratic term of a pose by surfaces that fit, and by a prediction where there is one.
 registration::QuadraticTerm termOf(const registration::DenseAlignment& aligned, bool surfaces_fit,
                                    const registration::QuadraticTerm* prediction)
 {
@@ -31,7 +31,7 @@ registration::QuadraticTerm termOf(const registration::DenseAlignment& aligned, 
   term.T_camera_world = aligned.T_world_camera.inverse();
   if (surfaces_fit)
     term.equations = aligned.term.equations;
-  // What nothing tells of a lost camera shows as a large covariance.
+  // Directions of a lost camera that nothing constrains show as a large covariance.
   if (prediction)
     term.equations += prediction->at(term.T_camera_world);
   else
@@ -65,7 +65,7 @@ MapMatches matchesNear(const KeyframeMap& map, const rgbd::Frame& frame, const r
       if (flow_pixels.count(match.landmark_id) > 0)
         found.matches.push_back(match);
   }
-  // What was placed in doubt has no say where others suffice, and none in where a lost camera is.
+  // Matches of keyframes placed in doubt do not count where others suffice, and never for a lost camera.
   if (lost || countTrusted(found.matches) >= enough)
     found.matches.erase(std::remove_if(found.matches.begin(), found.matches.end(),
                                        [](const LandmarkMatch& match) { return !match.trusted; }),

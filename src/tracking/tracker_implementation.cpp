@@ -50,7 +50,7 @@ std::string CameraTracker::Implementation::refuse(const rgbd::Frame& frame) cons
 
 rgbd::Frame CameraTracker::Implementation::withReferenceMask(rgbd::Frame frame) const
 {
-  // Masks may come with some frames of a scene too; they say nothing of what stands still.
+  // Masks may come with some frames of a scene too; they do not mark what stands still.
   frame.object_mask = objectOnly() ? frame.trackedMask() : cv::Mat();
   frame.moving_mask.release();
   return frame;

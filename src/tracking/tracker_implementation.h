@@ -46,7 +46,7 @@ private:
     bool wide_baseline = false;      ///< found without the frames before
     bool corrected = false;          ///< back among trusted keyframes: off where the motion led
     bool trusted = false;            ///< a good fit to trusted keyframes
-    bool by_landmarks = false;       ///< enough of them fit well, whatever the surfaces say
+    bool by_landmarks = false;       ///< enough of them fit well, whether the surfaces do or not
     std::string reason;
   };
 
@@ -67,7 +67,7 @@ private:
   std::string refuse(const rgbd::Frame& frame) const;
   Placement place(const View& view, StageTimes* times) const;
 
-  /// Where the camera should be now: on at constant velocity, or moved as the robot says (if it says anything).
+  /// Predicted pose of the camera: by constant velocity, or by the robot's motion where that is given.
   registration::QuadraticTerm predictByHand(double stamp_s) const;
   std::optional<registration::QuadraticTerm> predictByRobot() const;
 

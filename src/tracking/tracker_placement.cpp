@@ -15,7 +15,7 @@ namespace object_modelling::tracking
 {
 namespace
 {
-// Faster than a hand moves a camera on purpose; poses that ask for it are wrong.
+// Faster than a hand moves a camera on purpose; poses that imply it are wrong.
 constexpr double MAX_SPEED_M_PER_S = 4.0;
 constexpr double MAX_ANGULAR_SPEED_RAD_PER_S = 12.0;
 constexpr double RECOGNITION_ERROR_PX = 4.0;
@@ -54,7 +54,7 @@ CameraTracker::Implementation::Placement CameraTracker::Implementation::place(co
     const registration::QuadraticTerm by_hand = predictByHand(view.frame.stamp_s);
     const std::optional<registration::QuadraticTerm> by_robot = predictByRobot();
     placement = placeByAlignment(view, by_robot.value_or(by_hand), times);
-    // A robot that says what cannot be (wrong frame, clock or calibration) has no say at all.
+    // An impossible pose of the robot (wrong frame, clock or calibration) is not used at all.
     if (by_robot && (!placement.pose.valid || contradicts(placement.pose, *by_robot)))
       placement = placeByAlignment(view, by_hand, times);
     if (placement.pose.valid && !placement.trusted && !placement.reference->trusted)

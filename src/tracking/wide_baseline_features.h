@@ -22,7 +22,7 @@ struct WideBaselineFeatures
   std::vector<Eigen::Vector2f> pixels;
   std::vector<float> depths_m;  ///< NaN where missing
   cv::Mat descriptors;          ///< one row each
-  int norm = 0;                 ///< cv::NormTypes that tells descriptors apart
+  int norm = 0;                 ///< cv::NormTypes for comparing descriptors
 };
 
 /// On the frame's object mask, or on all of it where it has none.

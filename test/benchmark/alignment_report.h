@@ -47,7 +47,7 @@ struct PairRow
   std::optional<int> rankOfRight() const;  ///< of the first candidate that is right, from 1
 };
 
-/// Less is too little to tell an alignment from another.
+/// With less overlap one alignment cannot be distinguished from another.
 constexpr double ENOUGH_OVERLAP_RATIO = 0.2;
 
 struct Counts

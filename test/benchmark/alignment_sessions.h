@@ -15,7 +15,7 @@ struct StoredSession
   double made_s = 0;  ///< time it took; 0: it was there
 };
 
-/// The last two path components, for "session_1" says little: "004_sugar_box.session_1".
+/// The last two path components, since "session_1" is not unique: "004_sugar_box.session_1".
 std::string sessionIdOf(const std::string& folder);
 /// The first of these two.
 std::string objectFolderOf(const std::string& folder);

@@ -98,7 +98,7 @@ void writePart(const std::string& folder, const registration::PartialModel& part
   base::writeTextFile(folder + "/" + name + ".ply", out.str());
 }
 
-/// One that fails is left out and tells why, so that hours of work on the others are not lost.
+/// One that fails is left out with the reason, so that hours of work on the others are not lost.
 SessionRow prepareSession(const std::string& folder, int arc, const Arguments& arguments, Surfaces* surfaces)
 {
   SessionRow row;
@@ -153,7 +153,7 @@ void refineTruth(const SessionRow& a, const SessionRow& b, const Arguments& argu
   row->from_truth_errors = errorsOf(row->from_truth->T_a_b, b.part, a.truth, b.truth, surfaces->of(a.truth));
 }
 
-/// What a rival's making the same object is learnt from.
+/// Features to which the probability that a rival makes the same object is fitted.
 std::vector<std::optional<alignment::DifferenceFeatures>> differencesFromFirst(
     const registration::PartialModel& part_a, const registration::PartialModel& part_b,
     const std::vector<alignment::PairCandidate>& candidates, const alignment::PairAlignmentOptions& options)

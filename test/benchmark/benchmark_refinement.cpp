@@ -27,7 +27,7 @@ struct Arguments
   std::string store, out, json;
 };
 
-/// The last two path components, for "session_1" says little.
+/// The last two path components, since "session_1" is not unique.
 std::string nameOf(const std::string& recording)
 {
   const std::filesystem::path path = std::filesystem::absolute(recording + "/").parent_path().lexically_normal();

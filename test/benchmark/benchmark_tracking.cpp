@@ -68,7 +68,8 @@ void compareWithTruth(const std::vector<source::StampedPose>& truth, RecordingRe
     report->refined_score = scoreTrajectory(report->refined->trajectory, truth, report->events, stamps_s);
 }
 
-/// Folder and name for the trajectory files of a recording: its last two path components, for "session_1" says little.
+/// Folder and name for the trajectory files of a recording: its last two path components, since "session_1" is not
+/// unique.
 std::string outputBase(const std::string& out, const std::string& recording)
 {
   const std::filesystem::path path = std::filesystem::absolute(recording).lexically_normal();

@@ -21,7 +21,7 @@ struct RunOptions
   double keyframe_angle_rad = 0;  ///< instead of the tracker's; 0: as that has it
 };
 
-/// What the tracker said of one frame, without its images, and what it cost.
+/// Result of tracking one frame, without its images, and its time.
 struct FrameRecord
 {
   double wall_ms = 0, cpu_ms = 0;  ///< of the tracker alone: no reading, no rectification

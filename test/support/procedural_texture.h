@@ -22,7 +22,7 @@ inline Texture plainTexture(const Eigen::Vector3f& color_bgr = { 170, 170, 170 }
 
 /// Two turned grids of randomly coloured patches: corners at two scales, no repetition. `footprint_m` is what one pixel
 /// covers: edges are as soft as that, so that nothing aliases and the pattern is the same from any distance.
-/// `face` tells apart the faces of one object.
+/// `face`: number of the face; faces of one object differ.
 Eigen::Vector3f textureColor(const Texture& texture, float a_m, float b_m, int face, float footprint_m);
 
 }  // namespace object_modelling::test_support

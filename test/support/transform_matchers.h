@@ -6,7 +6,7 @@
 
 namespace object_modelling::test_support
 {
-/// Passes if the transforms' origins and rotations differ by no more than the tolerances; says by how much they do.
+/// Passes if the transforms' origins and rotations differ by no more than the tolerances; a failure prints by how much.
 inline ::testing::AssertionResult transformsAreNear(const char* text_a, const char* text_b, const char*, const char*,
                                                     const Eigen::Isometry3d& T_x_a, const Eigen::Isometry3d& T_x_b,
                                                     double metres, double radians)

@@ -51,7 +51,7 @@ struct StageTimes
   double keyframe_ms = 0;
 };
 
-/// What the tracker says of one frame.
+/// Result of tracking one frame.
 struct TrackingResult
 {
   double stamp_s = 0;
@@ -84,9 +84,9 @@ public:
   ~CameraTracker();
 
   /// Tracks the next frame, in time order. A frame whose size differs from the session's, or whose stamp is not newer,
-  /// gives LOST with the reason and changes nothing. `T_robot_camera`: where a robot that carries the camera says it
-  /// is, in any frame that stands still with respect to the scene; only the motion since the last frame placed counts,
-  /// as prediction and as a measurement with the sigmas of the options.
+  /// gives LOST with the reason and changes nothing. `T_robot_camera`: pose of the camera by the kinematics of the
+  /// robot that carries it, in any frame that is static with respect to the scene; only the motion since the last frame
+  /// placed counts, as prediction and as a measurement with the sigmas of the options.
   TrackingResult track(const rgbd::Frame& frame, const std::optional<Eigen::Isometry3d>& T_robot_camera = {});
 
   /// Forgets everything: the next frame starts a new session.

@@ -34,14 +34,14 @@ public:
 
   /// Gives the id of the session that begins; an empty one is made from `now`.
   std::string start(const std::string& session_id, const std::string& object_id, bool resume, const ros::Time& now);
-  /// Ends the session; the state tells of it, the status whether all of it has been stored.
+  /// Ends the session; returns its last state. `stored`: OK if all of it has been stored.
   object_modelling::TrackingState stop(base::Status* stored);
   /// Back to idle; gives the id of the session that was left, or nothing.
   std::string reset();
 
-  /// `dropped_count`: frames lost before this one. What is wrong with the robot's pose is said once.
+  /// `dropped_count`: frames lost before this one. A problem with the robot's pose is reported once.
   TrackedFrame process(const FrameMessages& messages, std::size_t dropped_count, const RobotPose& robot);
-  /// State when there is no frame to tell of.
+  /// State without a frame.
   object_modelling::TrackingState state(const ros::Time& now);
   /// The same for an input problem.
   object_modelling::TrackingState inputProblem(const std::string& reason, const ros::Time& now);
@@ -61,7 +61,7 @@ private:
   tracking::TrackingStatus status_ = tracking::TrackingStatus::NOT_STARTED;
   bool input_ok_ = false;
   int dropped_frames_ = 0;     ///< of the session
-  std::string robot_problem_;  ///< that has been said and has not gone since
+  std::string robot_problem_;  ///< reported, and not gone since
 };
 
 }  // namespace object_modelling::nodes

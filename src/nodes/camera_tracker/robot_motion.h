@@ -14,7 +14,7 @@
 
 namespace object_modelling::nodes
 {
-/// Where a robot says that it holds the camera.
+/// Pose of the camera by the kinematics of the robot that carries it.
 struct RobotPose
 {
   std::optional<Eigen::Isometry3d> T_robot_camera;
@@ -28,8 +28,8 @@ class RobotMotion
 public:
   explicit RobotMotion(const CameraTrackerNodeOptions& options);
 
-  /// At the time of an image in frame `camera.frame_id`; waits for tf no longer than the options say, by the wall
-  /// clock.
+  /// At the time of an image in frame `camera.frame_id`; waits for tf no longer than the options allow, by the
+  /// wall clock.
   RobotPose at(const std_msgs::Header& camera) const;
 
 private:

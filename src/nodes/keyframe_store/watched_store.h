@@ -22,7 +22,7 @@ public:
 };
 
 /// The SQL store, opened when first needed and again after a failure, so that a node outlives a store that cannot be
-/// opened and every call says why. Not thread safe.
+/// opened and every call reports the reason. Not thread safe.
 class WatchedStore : public keyframes::SessionStore
 {
 public:

@@ -19,9 +19,9 @@ struct ActionLimits
 };
 
 /// One action of another node; run() blocks until it has ended, was cancelled, or its node has gone. Not
-/// SimpleActionClient: that one drops what it is told before sendGoal() has returned, and then waits for ever for a
-/// goal that ended at once; nor does it notice a server that died. One goal at a time; what the server says is taken by
-/// the thread that spins the global queue, which must not be the one that runs.
+/// SimpleActionClient: that one drops messages that arrive before sendGoal() has returned, and then waits for ever for
+/// a goal that ended at once; nor does it notice a server that died. One goal at a time; the server's messages are
+/// handled by the thread that spins the global queue, which must not be the one that runs.
 template <typename Action>
 class ActionCaller
 {
@@ -138,7 +138,7 @@ private:
   void follow(const GoalHandle& handle, LatestFeedback& latest, const std::string& prefix, base::JobControl& control)
   {
     using actionlib::CommState;
-    // Not the wall's time: a server tells its status by ROS time, and so is silent while a simulated clock stands
+    // Not the wall's time: a server publishes its status by ROS time, and so is silent while a simulated clock stands
     // still.
     double last_progress_s = ros::Time::now().toSec();
     while (!waitForEnd(handle, POLL_S))

@@ -20,7 +20,7 @@ object_modelling::StageTime timeMessage(const pipeline::StageTime& time)
   return message;
 }
 
-/// All stages in their order: the builder tells its own apart, instead of the last one.
+/// All stages in their order: those of the builder singly, in place of the last one.
 void addTimes(std::vector<pipeline::StageTime> times, object_modelling::BuiltObject* built)
 {
   times.pop_back();

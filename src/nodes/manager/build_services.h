@@ -51,7 +51,7 @@ private:
   Outcome runStages(const Build::Request& request, const std::vector<std::string>& session_ids);
   void enterStage(const std::string& object_id, const std::string& stage);
   void onProgress(const base::Progress& progress);
-  /// Takes the state to IDLE; nothing is said of a build that was refused before its first stage.
+  /// Takes the state to IDLE; a build that was refused before its first stage is not reported.
   void end(const std::string& object_id, const Outcome* outcome);
 
   ros::NodeHandle node_;

@@ -4,8 +4,8 @@ namespace object_modelling::nodes
 {
 namespace
 {
-/// Calls that wait at the same time: one for a build, one that starts or ends something, and some of those that ask or
-/// come in a wrong order. More have to wait for their turn.
+/// Calls that wait at the same time: one for a build, one that starts or ends something, and some queries or calls
+/// out of order. More have to wait for their turn.
 constexpr unsigned SLOW_THREADS = 8;
 
 ros::NodeHandle withQueue(ros::NodeHandle node, ros::CallbackQueue* queue)

@@ -36,7 +36,7 @@ public:
   void ending() { ending_ = true; }
   /// `keyframe_count`: none if it is not known.
   void stopped(std::optional<int> keyframe_count = std::nullopt);
-  /// Nothing is recorded any more, unless the tracker comes back and says otherwise. What it stored stays.
+  /// Nothing is recorded any more, unless the tracker comes back and reports otherwise. What it stored stays.
   void trackerLost();
   /// Id of the session to delete: the one asked for, or the current or last one.
   std::string sessionToDiscard(const std::string& requested) const;
@@ -48,7 +48,7 @@ public:
     bool changed = false;
     base::Status status;  ///< not OK: a recording ended without a call to the manager
   };
-  /// Takes over what the tracker says of itself.
+  /// Takes over the tracker's reported state.
   Change trackerReported(bool recording, const std::string& session_id, int keyframe_count);
 
   void beginBuild(const std::string& object_id);

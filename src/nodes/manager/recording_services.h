@@ -15,7 +15,7 @@
 
 namespace object_modelling::nodes
 {
-/// ~start_session, ~stop_session and ~discard_session: recording by the camera tracker, and what it says of itself.
+/// ~start_session, ~stop_session and ~discard_session: recording by the camera tracker, and its reported state.
 class RecordingServices
 {
 public:

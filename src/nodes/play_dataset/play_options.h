@@ -18,7 +18,7 @@ struct PlayOptions
   ros_bridge::RecordingOptions source;
 };
 
-/// Reads the command line (without ROS' own arguments). On --help or a mistake it prints what is to be said and returns
+/// Reads the command line (without ROS' own arguments). On --help or a mistake it prints the help or error and returns
 /// false with the exit code.
 bool parseCommandLine(int argc, char** argv, PlayOptions* options, int* exit_code);
 

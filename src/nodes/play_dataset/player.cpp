@@ -13,7 +13,7 @@ namespace object_modelling::nodes
 namespace
 {
 constexpr double POLL_PERIOD_S = 0.05;
-// roscpp drops what is still in its queues when a node ends, and does not tell when they are empty.
+// roscpp drops what is still in its queues when a node ends, and does not report when they are empty.
 constexpr double LINGER_S = 0.5;
 
 /// A player passes on what was recorded; only what is no frame at all is left out.

@@ -26,7 +26,7 @@ public:
   /// The first keyframe of a session takes over what was chosen before it began.
   void beginSession(const std::string& session_id, const Eigen::Isometry3d& T_session_camera);
 
-  /// Drops the hypotheses whose centroid lies outside the region of interest, and says so if none is left.
+  /// Drops the hypotheses whose centroid lies outside the region of interest, and sets NO_RESULT if none is left.
   void applyRoi(const std::optional<Eigen::Isometry3d>& T_session_camera,
                 segmentation::SceneSegmentation* segmentation) const;
   /// Index of the chosen object's hypothesis; NO_RESULT if it is not in view, FAILED_PRECONDITION if none was chosen.

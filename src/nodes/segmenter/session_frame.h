@@ -22,11 +22,11 @@ public:
 
   /// Session being recorded; empty when none is.
   const std::string& recorded() const { return recorded_; }
-  /// Nothing while no session is recorded, or the tracker does not know where the camera is at that time.
+  /// Nothing while no session is recorded, or the tracker has no pose at that time.
   std::optional<Eigen::Isometry3d> T_session_camera(const std_msgs::Header& camera) const;
 
   /// Pose and point given in any frame, in the camera's frame at its stamp. Throws base::Error (INVALID_ARGUMENT, or
-  /// FAILED_PRECONDITION if tf cannot tell).
+  /// FAILED_PRECONDITION without a transform in tf).
   Eigen::Isometry3d inCamera(const geometry_msgs::PoseStamped& box, const std_msgs::Header& camera) const;
   Eigen::Vector3d inCamera(const geometry_msgs::PointStamped& point, const std_msgs::Header& camera) const;
 

@@ -1,4 +1,4 @@
-// Shows the model in #viewer; tells in its data-state and data-triangles how that went.
+// Shows the model in #viewer; sets its data-state and data-triangles to the outcome.
 (function () {
   "use strict";
   var box = document.getElementById("viewer");
