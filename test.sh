@@ -26,7 +26,7 @@ if [ -n "$sanitize" ]; then
 fi
 install_missing
 build
-# No test runs them, so that nothing else tells that they do not compile.
+# No test runs them, so that nothing else checks that they compile.
 [ -n "$sanitize" ] || build benchmarks
 enter
 rm -rf "$build_dir"/{test_results,Testing,sanitizer_reports,ros_home}

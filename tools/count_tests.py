@@ -53,7 +53,7 @@ def main():
         with open(log_path, errors="replace") as log:
             results.append(unittest_counts(log.read()))
     cases, failed, skipped = (sum(column) for column in zip(*results)) if results else (0, 0, 0)
-    # A test program that crashed leaves no case behind: ctest knows of it.
+    # A test program that crashed writes no case: ctest lists it.
     failed_path = os.path.join(build, "Testing", "Temporary", "LastTestsFailed.log")
     if failed == 0 and os.path.exists(failed_path):
         with open(failed_path) as lines:

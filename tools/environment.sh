@@ -64,7 +64,7 @@ build() {
   fi
   if [ ! -f "$build_dir/build.ninja" ] || [ "${#cmake_arguments[@]}" -gt 0 ]; then
     echo "Configuring in $build_dir"
-    # An own PATH for the build: a pyenv or venv python3 knows nothing of ROS.
+    # An own PATH for the build: a pyenv or venv python3 has no modules of ROS.
     PATH="/usr/bin:$PATH" cmake -S "$root" -B "$build_dir" -G Ninja -DCMAKE_BUILD_TYPE="$build_type" \
       -DOBJECT_MODELLING_WARNINGS_AS_ERRORS=ON "${launcher[@]}" "${cmake_arguments[@]}" >"$log" 2>&1 ||
       { tail -n 30 "$log" >&2; fail "configuring failed; the whole log is $log"; }

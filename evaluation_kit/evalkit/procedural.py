@@ -1,7 +1,7 @@
 """Procedural household things: as many textured objects as a seed asks for, each a function of (seed, number).
 
 An object is a folder as objects/README.md describes. Shapes are in procedural_shapes and procedural_tools, their
-surfaces in procedural_surface, print in procedural_print and procedural_labels.
+surfaces in procedural_surface, texture in procedural_print and procedural_labels.
 """
 
 import os

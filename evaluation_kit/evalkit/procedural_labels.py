@@ -38,7 +38,7 @@ def window(image, box):
 
 
 def blend(image, mask, colour):
-    """Paints a colour, or an image, where a mask (0..1) says so."""
+    """Blends a colour, or an image, into an image by a mask (0..1)."""
     mask = mask[:, :, None].astype(np.float32)
     image[:] = np.clip(image * (1 - mask) + np.asarray(colour, np.float32) * mask + 0.5, 0, 255).astype(np.uint8)
 

@@ -183,7 +183,7 @@ class Printer:
             self._brand(image, (0.15, 0.25, 0.7, 0.5), self.palette.ink)
 
     def small_print(self, rng, image):
-        """A barcode and a few lines in a corner: what tells two sides apart that are alike else."""
+        """A barcode and a few lines in a corner: the only difference of two sides that are otherwise alike."""
         label.barcode(rng, image, (0.66, 0.76, 0.3, 0.2))
         area = label.window(image, (0.04, 0.8, 0.56, 0.16))
         area[:] = self.palette.paper.astype(np.uint8)

@@ -16,7 +16,7 @@ class Patch:
     """Triangles of one texture region.
 
     points (n, 3), normals (n, 3) and uv (n, 2) in metres per vertex; faces (m, 3); region: name, whose part before
-    the slash says what part it is of; size (2,): width and height of the region in metres.
+    the slash is the part it belongs to; size (2,): width and height of the region in metres.
     """
 
     def __init__(self, points, normals, uv, faces, region):

@@ -1,4 +1,4 @@
-"""Rotations that leave an object as it is: of its shape alone, or of shape and print; see objects/README.md."""
+"""Rotations that leave an object as it is: of its shape alone, or of shape and texture; see objects/README.md."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Drives one session as a user would: start, play a recording, stop, build; and tells what came of it."""
+"""Drives one session as a user would: start, play a recording, stop, build; and prints the result."""
 import argparse
 import contextlib
 import os

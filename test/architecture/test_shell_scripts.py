@@ -1,4 +1,4 @@
-"""The scripts of the root explain themselves and refuse what they do not know, before they install or build anything."""
+"""The scripts of the root explain themselves and refuse unknown arguments, before they install or build anything."""
 
 import os
 import subprocess

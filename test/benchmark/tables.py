@@ -94,7 +94,7 @@ def judged(path):
     """Report of benchmark_alignment whose poses were judged by the true meshes."""
     if path.endswith(".judged"):
         return read(path)
-    read(path)  # says what is wrong with the file before minutes of judging
+    read(path)  # reports a malformed file before minutes of judging
     from alignment_evidence import read as judge  # pylint: disable=import-outside-toplevel
 
     return judge([path])[0]

@@ -4,7 +4,7 @@ import os
 import tempfile
 import unittest
 
-from command import CEREAL_BOX, run_json  # first: it says where the next one is
+from command import CEREAL_BOX, run_json  # first: its output gives the next one's place
 
 from carton import fold_thickness_m
 

@@ -8,7 +8,7 @@ import unittest
 
 from command import HANDHELD, run, run_json
 
-SAME_POSE = ("--same-pose-probability", "0.5")  # the same recording twice: nobody turned the object over
+SAME_POSE = ("--same-pose-probability", "0.5")  # the same recording twice: the object was not turned over
 
 
 class SessionsTest(unittest.TestCase):

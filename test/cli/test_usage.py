@@ -1,4 +1,4 @@
-"""Help that teaches, exit codes, and clear words for bad input; nothing is left behind."""
+"""Help texts, exit codes, and error messages for bad input; no files are left behind."""
 
 import json
 import os

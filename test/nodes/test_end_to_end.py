@@ -35,7 +35,7 @@ def copy_store(source, target):
 
 
 def model_by_command(folder, object_id, *options):
-    """What the command tells of the object that it makes of a copied store and database."""
+    """Output of the command for the object that it makes of a copied store and database."""
     finished = subprocess.run(
         [roslib.packages.find_node("object_modelling", "object_modelling")[0], "model", object_id,
          "--store", os.path.join(folder, "store"), "--database", os.path.join(folder, "objects"), "--json", "--quiet",

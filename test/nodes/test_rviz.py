@@ -55,7 +55,7 @@ def publish_everything():
 
 
 def publish_a_pair():
-    """As session_aligner does, in a frame that tf knows nothing of."""
+    """As session_aligner does, in a frame that is not in tf."""
     header = Header(frame_id="alignment")
     square = cloud(0, 0, header)
     label = Marker(header=header, type=Marker.TEXT_VIEW_FACING, text="0: features", color=ColorRGBA(0.2, 1, 0.3, 1))

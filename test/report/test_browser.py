@@ -1,4 +1,4 @@
-"""The page in headless Chromium: loads its model, says nothing on the console, asks nobody for anything."""
+"""The page in headless Chromium: loads its model, prints nothing on the console, makes no request."""
 import json
 import os
 import re

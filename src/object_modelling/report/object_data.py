@@ -1,4 +1,4 @@
-"""What the report tells, read from an object's folder."""
+"""The report's contents, read from an object's folder."""
 import os
 
 import yaml

@@ -51,7 +51,7 @@ def turn_prior(turn_rad):
 
 def choices_of(reports, names, cross_weight):
     """A choice for every pair that has poses. Together, pairs of two objects weigh `cross_weight` of those of one.
-    What was recorded badly shows another object than the true one, and teaches nothing of poses."""
+    Badly tracked recordings have the shape of another object, and are left out."""
     pairs = []
     for report in reports:
         sessions = {session["id"]: session for session in report["sessions"]}

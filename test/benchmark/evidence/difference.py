@@ -1,7 +1,7 @@
 """Logistic regression of whether a rival pose makes the same object as the best one, given that the best one is right.
 
-What is learnt from are the rivals of right poses, each weighed by its probability: a rival that nobody would take teaches
-little. Differences speak against it only, so that no weight is positive.
+Fitted to the rivals of right poses, each weighted by its probability: improbable rivals carry little
+information. Differences are evidence against it only, so that no weight is positive.
 """
 
 import numpy as np

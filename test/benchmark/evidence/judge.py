@@ -1,6 +1,6 @@
 """Whether a pose found for two sessions is right: within limits of the true one, or of one that makes the same object.
 
-An object may be symmetric, in shape or in shape and print; then any pose that makes the same object is right. That is
+An object may be symmetric, in shape or in shape and texture; then any pose that makes the same object is right. That is
 read off the true mesh and its texture, not off a list.
 """
 
@@ -60,7 +60,7 @@ class TrueObject:
 
     def errors(self, error):
         """Errors of a pose that maps the object to `error` (4x4) instead of to itself: ADD and ADD-S in metres, whether
-        it makes the same shape, and the same shape with the same print."""
+        it makes the same shape, and the same shape with the same texture."""
         moved = self.points @ error[:3, :3].T + error[:3, 3]
         add = float(np.linalg.norm(moved - self.points, axis=1).mean())
         distance = self.closest.query(moved)[0]

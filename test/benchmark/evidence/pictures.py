@@ -37,7 +37,7 @@ def draw(axis, points, normals, colours, degrees):
 
 
 def upright(normals):
-    """Rotation that puts the mean normal of a part, which nobody saw from below, up."""
+    """Rotation that puts the mean normal of a part, which no camera saw from below, up."""
     up = normals.mean(0)
     up /= max(np.linalg.norm(up), 1e-9)
     side = np.cross(up, [1, 0, 0] if abs(up[0]) < 0.9 else [0, 1, 0])

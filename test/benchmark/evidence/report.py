@@ -5,15 +5,15 @@ import os
 import numpy as np
 import yaml
 
-ENOUGH_OVERLAP = 0.2  # less is too little to tell an alignment from another
+ENOUGH_OVERLAP = 0.2  # with less, one alignment cannot be distinguished from another
 BINS = [0, 0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.95, 1.0001]
-FEW_PAIRS = 20  # in a bin: fewer say nothing of reliability
+FEW_PAIRS = 20  # in a bin: fewer are too few to measure reliability
 NOT_TURNED_RAD = 0.17
 WELL_TRACKED_MM = 1.5  # rms of the refined camera about the truth: beyond it the part is bent by as much
 
 
 def same_pose(pair):
-    """Whether the object was not turned over: that is for an option to say, not for the weights."""
+    """Whether the object was not turned over: a prior given by an option, not by the weights."""
     return pair["same_object"] and 0 <= (pair["true_turn_rad"] or 0) < NOT_TURNED_RAD
 
 
@@ -65,7 +65,7 @@ def row(label, pairs):
 
 
 def outcome_table(report):
-    """Pairs of one object with enough in common, all and by kind of object, print and sensor."""
+    """Pairs of one object with enough in common, all and by kind of object, texture and sensor."""
     sessions = {s["id"]: s for s in report["sessions"]}
     same = [p for p in report["pairs"] if p["same_object"] and not same_pose(p)]
     enough = [p for p in same if p["true_overlap_ratio"] >= ENOUGH_OVERLAP]

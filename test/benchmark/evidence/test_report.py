@@ -1,4 +1,4 @@
-"""The tables tell what a session's tracking spoilt from what alignment did."""
+"""The tables separate errors of a session's tracking from those of alignment."""
 
 import pytest
 from report import failures_table, outcome_table, together_table, well_tracked

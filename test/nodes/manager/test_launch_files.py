@@ -1,4 +1,4 @@
-"""Every shipped launch file loads, starts what it says, and passes on its arguments."""
+"""Every shipped launch file loads, starts its nodes, and passes on its arguments."""
 import os
 import unittest
 

@@ -101,7 +101,7 @@ def image_message(array, encoding, stamp, frame_id):
 
 
 class SyntheticCamera:
-    """Publishes frames under `namespace`, and hears what the tracker there says of them."""
+    """Publishes frames under `namespace`, and receives the tracker's states for them."""
 
     def __init__(self, namespace, frame_id="camera_optical", with_info=True, with_masks=False, scene=SCENE,
                  queue_size=10):

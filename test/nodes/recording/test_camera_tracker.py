@@ -267,7 +267,7 @@ class CameraTrackerTest(unittest.TestCase):
 class SilentInputsTest(unittest.TestCase):
     @staticmethod
     def send_until(camera, text, **faults):
-        """Sends frames until the tracker says `text`; returns all that it says."""
+        """Sends frames until a reason of the tracker contains `text`; returns all reasons."""
         def said():
             camera.send(0, **faults)
             return any(text in state.reason for state in camera.states)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""camera_tracker with a camera that is held by a robot, which tells tf where it is."""
+"""camera_tracker with a camera that is held by a robot, which publishes its pose on tf."""
 import os
 import sys
 import unittest
