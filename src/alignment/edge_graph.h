@@ -58,7 +58,7 @@ public:
   std::vector<int> edgesTo(int session, const Placement& placed) const;
 
   std::size_t candidates(int edge) const;
-  /// A person's word leaves hardly a doubt.
+  /// A pair placed by a person has hardly any doubt.
   double probability(int edge, std::size_t candidate) const;
   double doubt(int edge) const { return 1 - probability(edge, 0); }
   /// Of a candidate's probability what it has by itself, without those that make the same object.

@@ -66,7 +66,7 @@ struct Choice
   double probability = 0;  ///< by all edges to the placed sessions, against other poses and against none
 };
 
-/// Probability that two poses make the same object: by the edges that hold both, the one that doubts it most.
+/// Probability that two poses make the same object: by the edges that contain both, the lowest of theirs.
 double sameObjectProbability(const EdgeGraph& graph, const std::vector<int>& edges, const Hypothesis& one,
                              const Hypothesis& other)
 {

@@ -131,7 +131,7 @@ BundleAdjustmentResult reportOf(const std::vector<rgbd::Keyframe>& keyframes, co
   reportLinks(keyframes, adjustment, &result);
   const std::vector<geometry::Matrix6d> covariance =
       poseCovariances(keyframes, adjustment.members.front(), options.loss_width_sigmas, adjustment.state);
-  // What surfaces alone hold has none here, and keeps what it came with: zero would mean that nothing is unsure.
+  // What surfaces alone constrain has none here, and keeps what it came with: zero would mean that nothing is unsure.
   for (int k : adjustment.members)
     if (k == adjustment.members.front() || !covariance[k].isZero(0))
       result.covariance[k] = covariance[k];

@@ -22,7 +22,7 @@ struct SurfaceLink
 };
 
 /// Aligns neighbours in time, and each keyframe with those that by the poses see most of the same, in both directions:
-/// a link needs both to agree. What holds scenes without texture together. by_color_offset only if asked for.
+/// a link needs both to agree. They constrain scenes without texture. by_color_offset only if asked for.
 std::vector<SurfaceLink> linkSurfaces(const std::vector<rgbd::Keyframe>& keyframes,
                                       const Eigen::Vector2d& color_offset_px, bool find_by_color_offset,
                                       bool object_only, base::JobControl& control);

@@ -20,7 +20,7 @@ constexpr float RIDGE_RATIO = 0.001f;
 /// Far from the camera a neighbourhood must be as wide, or it holds a handful of pixels.
 constexpr float LATERAL_SIGMAS = 4;
 constexpr int MIN_OBSERVATIONS = 3;
-/// The noise of neighbouring pixels is correlated: about so many hold one independent measurement.
+/// The noise of neighbouring pixels is correlated: about so many make one independent measurement.
 constexpr float CORRELATED_PIXELS = 6.f;
 
 using Vector6f = Eigen::Matrix<float, 6, 1>;

@@ -68,7 +68,7 @@ bool solveStep(const PatchTemplate& patch, const PatchWindow& window, Eigen::Vec
   A << difference.a_xx, difference.a_xy, difference.a_xy, difference.a_yy;
   const double determinant = A.determinant();
   const double trace = A.trace();
-  // An edge (one eigenvalue next to nothing) holds the patch in one direction only.
+  // An edge (one eigenvalue next to nothing) constrains the patch in one direction only.
   if (!(determinant > 0.005 * trace * trace) || difference.gain <= 0)
     return false;
   *step = -A.inverse() * Eigen::Vector2d(difference.b_x, difference.b_y);

@@ -6,7 +6,7 @@
 
 namespace object_modelling::alignment
 {
-/// The same spot of the object in two sessions, as a person points it out; session frames.
+/// The same spot of the object in two sessions, as a person points it out; metres, each in its session's frame.
 struct PointPair
 {
   Eigen::Vector3d a, b;

@@ -71,7 +71,7 @@ inline double samplesNeeded(double inlier_ratio, std::size_t sample_size, double
 
 struct RansacOptions
 {
-  int max_samples = 1000;
+  int max_samples = 1000;          ///< drawn at most
   double confidence_ratio = 0.99;  ///< chance of having drawn one clean sample, at which the drawing stops
   double samples_factor = 1;       ///< of the samples needed: more where not every clean sample gives a good model
   std::uint64_t seed = 1;

@@ -11,11 +11,11 @@ namespace object_modelling::bundle_adjustment
 {
 struct BundleAdjustmentOptions
 {
-  double pixel_sigma_px = 0.5;     ///< of an observation
-  double loss_width_sigmas = 2.0;  ///< residuals beyond count robustly (Cauchy)
-  int min_observations_per_landmark = 2;
-  int max_iterations = 300;
-  bool link_keyframes = true;  ///< match keyframes that the tracker did not link before adjusting
+  double pixel_sigma_px = 0.5;            ///< of an observation; > 0
+  double loss_width_sigmas = 2.0;         ///< > 0; residuals beyond count robustly (Cauchy)
+  int min_observations_per_landmark = 2;  ///< >= 2; landmarks with fewer take no part
+  int max_iterations = 300;               ///< >= 1
+  bool link_keyframes = true;             ///< match keyframes that the tracker did not link before adjusting
   /// Find by how much the colour images are shifted against the depth images, which are seldom registered to the pixel.
   /// Where surfaces are steep a shift of a third of a pixel makes the whole model 0.1 % too small.
   bool calibrate_color_offset = true;
@@ -61,7 +61,7 @@ void forFields(const Visit& visit, Residuals&... residuals)
 /// Two keyframes linked by a direct, geometrically verified match: an independent measurement of their relative pose.
 struct KeyframeLink
 {
-  int keyframe_a = -1, keyframe_b = -1;
+  int keyframe_a = -1, keyframe_b = -1;                     ///< ids
   Eigen::Isometry3d T_a_b = Eigen::Isometry3d::Identity();  ///< from the match alone
   int inlier_count = 0;
   double translation_error_before_m = 0, translation_error_after_m = 0;  ///< poses against T_a_b
@@ -72,8 +72,8 @@ struct BundleAdjustmentResult
 {
   base::Status status;  ///< NO_RESULT: not converged or nothing to adjust; poses are then those that came in
   std::vector<Eigen::Isometry3d> T_session_camera;  ///< per keyframe, in the order given
-  std::vector<geometry::Matrix6d> covariance;
-  std::vector<KeyframeResidual> residuals;
+  std::vector<geometry::Matrix6d> covariance;       ///< likewise, of T_session_camera
+  std::vector<KeyframeResidual> residuals;          ///< likewise
   std::vector<KeyframeLink> links;  ///< verified pairs that the tracker had not linked; loop closures among them
   std::vector<KeyframeLink> rejected_links;  ///< geometrically verified too, but in contradiction to the rest; not used
   std::vector<int> left_out;                 ///< ids of keyframes that nothing links to the others; poses unchanged
@@ -84,7 +84,7 @@ struct BundleAdjustmentResult
   /// calibrated.
   rgbd::SensorCorrection sensor;
   int iterations = 0;
-  double initial_cost = 0, final_cost = 0;
+  double initial_cost = 0, final_cost = 0;  ///< Cauchy losses of pixels and depths, summed
 };
 
 /// Joint refinement of keyframe poses and landmarks (Ceres): reprojection and depth residuals with the sigma of the

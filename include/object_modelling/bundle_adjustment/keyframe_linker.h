@@ -33,7 +33,7 @@ struct LinkedPoint
   int feature_a = -1, feature_b = -1;  ///< identify the point within its keyframe, for all links of a run
   Eigen::Vector2d pixel_a = Eigen::Vector2d::Zero(), pixel_b = Eigen::Vector2d::Zero();
   double depth_a_m = 0, depth_b_m = 0;
-  double sigma_a_px = 0, sigma_b_px = 0;
+  double sigma_a_px = 0, sigma_b_px = 0;  ///< of the pixels
 };
 
 /// Two keyframes, by index in the list given, whose features agree with one rigid motion.

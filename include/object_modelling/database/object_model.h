@@ -16,7 +16,7 @@ namespace object_modelling::database
 struct ModelSession
 {
   std::string id;
-  Eigen::Isometry3d T_model_session = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_model_session = Eigen::Isometry3d::Identity();  ///< the model frame is the object frame
   int keyframe_count = 0;
 };
 

@@ -11,9 +11,9 @@ struct DescribedPoints
 {
   std::vector<cv::Point2f> pixels;  ///< (0, 0) is the centre of the upper left pixel
   std::vector<float> sizes_px;      ///< diameter of the described patch's centre blob
-  std::vector<float> responses;
-  cv::Mat descriptors;  ///< CV_32FC1 (SIFT) or CV_8UC1 (AKAZE, ORB)
-  int norm = 0;         ///< cv::NormTypes for comparing the descriptors
+  std::vector<float> responses;     ///< strength of the detector at the point; comparable within one detector
+  cv::Mat descriptors;              ///< CV_32FC1 (SIFT) or CV_8UC1 (AKAZE, ORB)
+  int norm = 0;                     ///< cv::NormTypes for comparing the descriptors
 };
 
 /// Found from other directions and distances: SIFT (in OpenCV's main module from 4.4 on; AKAZE before), at most about

@@ -11,7 +11,7 @@ namespace object_modelling::features
 {
 struct Feature
 {
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();     ///< sub-pixel
   double scale_px = 0;                                 ///< diameter of the described patch's centre blob
   double depth_m = 0;                                  ///< NaN where missing or at a depth step
   Eigen::Vector3d p_camera = Eigen::Vector3d::Zero();  ///< back-projected; NaN without depth

@@ -9,7 +9,7 @@
 
 namespace object_modelling::features
 {
-/// A point seen in two keyframes, in the optical frame of each.
+/// A point seen in two keyframes, in metres in the optical frame of each, with the sigmas of its pixels.
 struct PointPair
 {
   Eigen::Vector3d p_a = Eigen::Vector3d::Zero();
@@ -19,8 +19,8 @@ struct PointPair
 
 struct RelativePoseOptions
 {
-  int max_iterations = 3000;
-  double gate_sigmas = 4;  ///< a pair is an inlier within this Mahalanobis distance
+  int max_iterations = 3000;  ///< of RANSAC
+  double gate_sigmas = 4;     ///< a pair is an inlier within this Mahalanobis distance
   std::uint64_t seed = 1;
 };
 

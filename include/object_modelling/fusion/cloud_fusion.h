@@ -39,7 +39,7 @@ struct CloudFusionResult
 {
   base::Status status;  ///< NO_RESULT: nothing left (no masks, no depth); the message says at which step
   FusedCloud cloud;     ///< in the world of the views
-  std::size_t observations_used = 0, observations_inconsistent = 0;
+  std::size_t observations_used = 0, observations_inconsistent = 0;  ///< pixels in the masks, of at least min_weight
 };
 
 /// Noise-weighted fusion of the masked depth of views (Aldoma et al. 2015, section 3.4, corrected: a true weighted

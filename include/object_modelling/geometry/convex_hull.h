@@ -8,8 +8,8 @@ namespace object_modelling::geometry
 {
 struct ConvexHull
 {
-  std::vector<Eigen::Vector3f> vertices;
-  std::vector<Eigen::Vector3d> normals;  ///< outward, one per face (coplanar facets merged)
+  std::vector<Eigen::Vector3f> vertices;  ///< in the frame and unit of the points
+  std::vector<Eigen::Vector3d> normals;   ///< outward, one per face (coplanar facets merged)
 };
 
 /// Hull of the points (Qhull). Flat, collinear or fewer than 4 points have no volume: the normal of their plane (both

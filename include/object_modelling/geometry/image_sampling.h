@@ -15,8 +15,8 @@ struct SubPixel
         b(v_px - static_cast<float>(v))
   {
   }
-  int u, v;
-  float a, b;
+  int u, v;    ///< the upper left of the four pixels round the position
+  float a, b;  ///< distance from it along u and v, in [0, 1)
 };
 
 /// Whether a position has four pixels round it; false for NaN.

@@ -15,7 +15,7 @@ struct PoseUpdate
 {
   int keyframe_id = -1;
   Eigen::Isometry3d T_session_camera = Eigen::Isometry3d::Identity();
-  geometry::Matrix6d covariance = geometry::Matrix6d::Zero();
+  geometry::Matrix6d covariance = geometry::Matrix6d::Zero();  ///< of T_session_camera
 };
 
 struct MaskUpdate

@@ -15,7 +15,7 @@ struct TriangleMesh
   std::vector<Eigen::Vector3f> normals;                   ///< per vertex, unit length; empty or as many as vertices
   std::vector<Eigen::Matrix<std::uint8_t, 3, 1>> colors;  ///< per vertex, RGB; empty or as many as vertices
   std::vector<std::uint8_t> seen;  ///< per vertex: 0 where the surface was closed and no camera saw it; empty: all seen
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into vertices
 
   bool empty() const { return triangles.empty(); }
 };

@@ -30,7 +30,8 @@ struct MultiViewIcpOptions
   double max_normal_angle_rad = 0.52;  ///< 30 deg between the normals of partners, once poses are good
   double min_edge_distance_px = 1.5;   ///< to depth edges, in images of at most 320 px width
   double loss_width_sigmas = 2.385;    ///< Cauchy: 95 % efficient for normal errors
-  /// Weight of grey levels against depths, 0: geometry alone. They hold what the shape leaves free (a can, a table).
+  /// Weight of grey levels against depths, 0: geometry alone. They constrain what the shape leaves free (a can, a
+  /// table).
   double color_weight = 1;
   /// Views of one session keep their poses relative to each other and move as one body (sessions that were refined by
   /// themselves, on more than the object). Partners are views of other sessions that have surface in common as they
@@ -56,7 +57,7 @@ struct IcpPair
   int view_a = -1, view_b = -1;
   double overlap_ratio = 0;  ///< predicted at the start: share of the surface of one that the other sees
   int point_count = 0;
-  double rmse_before_m = 0, rmse_after_m = 0;
+  double rmse_before_m = 0, rmse_after_m = 0;  ///< point to plane
 };
 
 /// A motion of one view against the first that neither surfaces nor grey levels resist, e.g. about the axis of a

@@ -12,8 +12,8 @@ struct DenseAlignmentOptions
   /// Neighbouring pixels err alike (interpolation, calibration, smooth distortion of depth): this many of them, at the
   /// finest level for depth, weigh as much as one independent measurement.
   double correlated_depths = 120;
-  double correlated_intensities = 10;
-  int max_iterations = 8;  ///< per level
+  double correlated_intensities = 10;  ///< likewise, for intensities on edges
+  int max_iterations = 8;              ///< per level
   /// Levels used, 0: the finest. From coarsest to finest; the same for a start that is good already.
   int coarsest_level = 2;
   int finest_level = 0;
@@ -24,9 +24,9 @@ struct DenseTerm
 {
   geometry::NormalEquations equations;
   int in_view = 0;             ///< reference points that project into the frame and are not hidden
-  double depth_agreement = 0;  ///< share of those with depth whose depth the frame confirms
-  double overlap = 0;          ///< share of the reference's points that are in view
-  double correlation = 0;      ///< of the intensities on edges and texture
+  double depth_agreement = 0;  ///< share of those with depth whose depth the frame confirms, in [0, 1]
+  double overlap = 0;          ///< share of the reference's points that are in view, in [0, 1]
+  double correlation = 0;      ///< of the intensities on edges and texture, in [-1, 1]
   double intensity_scale = 0;  ///< robust standard deviation of the intensity residuals, grey levels
 };
 
@@ -44,7 +44,7 @@ struct DenseAlignment
 };
 
 /// Coarse to fine Gauss-Newton from a start that may be several degrees off. `prior` (information about
-/// T_world_camera_start, in the order of the normal equations) holds what neither depth nor intensity constrain.
+/// T_world_camera_start, in the order of the normal equations) constrains what neither depth nor intensity do.
 DenseAlignment alignDense(const DenseReference& reference, const Eigen::Isometry3d& T_world_reference,
                           const DensePyramid& frame, const Eigen::Isometry3d& T_world_camera_start,
                           const geometry::Matrix6d& prior, const DenseAlignmentOptions& options = {});

@@ -34,12 +34,12 @@ private:
   std::vector<DenseLevel> levels_;
 };
 
-/// A point of a reference frame, in that camera's frame.
+/// A point of a reference frame, in metres in that camera's optical frame.
 struct DensePoint
 {
   Eigen::Vector3f p;
-  Eigen::Vector3f n;  ///< towards the camera; zero where unknown: no depth residual
-  float intensity = 0;
+  Eigen::Vector3f n;      ///< towards the camera; zero where unknown: no depth residual
+  float intensity = 0;    ///< grey level, 0 to 255
   bool textured = false;  ///< enough gradient for an intensity residual
 };
 

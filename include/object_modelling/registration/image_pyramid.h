@@ -29,7 +29,7 @@ private:
 struct FlowFeature
 {
   bool found = false;
-  Eigen::Vector2f pixel{ 0, 0 };
+  Eigen::Vector2f pixel{ 0, 0 };  ///< sub-pixel, at full resolution
 };
 
 /// Where features of the last frame are in the current one (KLT, Bouguet's pyramid), started from `predicted`.

@@ -16,9 +16,9 @@ struct MatchedSurface
   MatchedSurface(const PartialModel& given, int threads);
 
   const PartialModel& model;
-  Eigen::Vector3f centre;
-  float radius_m;
-  SurfaceField coarse;  ///< far reaching
+  Eigen::Vector3f centre;  ///< session frame, m
+  float radius_m;          ///< farthest point from the centre
+  SurfaceField coarse;     ///< far reaching
   SurfaceField fine;
   /// Colours averaged over a neighbourhood of several points and of few, and their slopes.
   std::vector<Eigen::Vector3f> blurred_colors, colors;

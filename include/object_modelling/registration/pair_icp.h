@@ -16,7 +16,7 @@ struct PairIcpOptions
   bool coarse = true;    ///< far reach and few points, b on a only; else near, many, and both ways
   double gate_m = 0.02;  ///< at the start; shrinks to `last_gate_m`
   double last_gate_m = 0.005;
-  int iterations = 8;
+  int iterations = 8;  ///< over which the gate shrinks
   ColorDetail color = ColorDetail::NONE;
 };
 

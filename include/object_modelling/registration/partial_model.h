@@ -32,7 +32,7 @@ struct ObjectFeatures
 };
 
 /// The part of an object's surface that one session saw, thinned for matching. Points, normals and both colours have
-/// the same length; session frame.
+/// the same length; metres, session frame.
 struct PartialModel
 {
   std::string session_id;
@@ -42,9 +42,9 @@ struct PartialModel
   /// large as the others matter. Zero without colour.
   std::vector<Eigen::Vector3f> colors;
   std::vector<Eigen::Matrix<std::uint8_t, 3, 1>> colors_rgb;  ///< as recorded, for people
-  double spacing_m = 0;
-  std::string doubt;  ///< why its shape may differ from the object's; empty: no reason found
-  std::optional<geometry::Plane> support_plane;
+  double spacing_m = 0;                                       ///< of the points
+  std::string doubt;                             ///< why its shape may differ from the object's; empty: no reason found
+  std::optional<geometry::Plane> support_plane;  ///< session frame
   std::vector<SpaceView> views;
   std::vector<ObjectFeatures> features;
 

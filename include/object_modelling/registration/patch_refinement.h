@@ -18,9 +18,9 @@ struct PatchRefinementOptions
 
 struct PatchRefinement
 {
-  bool accepted = false;  ///< converged, near the start, and correlated
-  Eigen::Vector2f pixel{ 0, 0 };
-  float correlation = 0;
+  bool accepted = false;          ///< converged, near the start, and correlated
+  Eigen::Vector2f pixel{ 0, 0 };  ///< sub-pixel, at full resolution
+  float correlation = 0;          ///< normalised, in [-1, 1]
 };
 
 /// H = K (R + t n^T / (n^T X)) K^-1 of the plane through X with normal n, both in the reference camera's frame; R, t of

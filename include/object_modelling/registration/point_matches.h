@@ -6,7 +6,7 @@
 
 namespace object_modelling::registration
 {
-/// Corresponding points of two parts, each in its part's frame, matched by local features.
+/// Corresponding points of two parts, in metres, each in its session's frame, matched by local features.
 struct PointMatch
 {
   Eigen::Vector3f a, b;
@@ -15,7 +15,7 @@ struct PointMatch
 /// Of every view of a with every view of b: the same point may be matched several times, and most matches may be wrong.
 std::vector<PointMatch> matchPoints(const MatchedSurface& a, const MatchedSurface& b, int threads);
 
-/// Two parts, and what is known of both together.
+/// Two parts and their matches.
 struct PartPair
 {
   PartPair(const MatchedSurface& given_a, const MatchedSurface& given_b, int threads)

@@ -12,7 +12,7 @@
 
 namespace object_modelling::registration
 {
-/// A known point and where the current frame sees it.
+/// A known point (m) and its pixel in the current frame.
 struct Correspondence
 {
   Eigen::Vector3d p_world;
@@ -20,10 +20,10 @@ struct Correspondence
   double depth_m = 0;  ///< measured in the current frame; NaN where it has none
 };
 
-/// What else is known of the pose (surfaces, predicted motion), as least squares about one pose near the solution.
+/// Further constraints on the pose (surfaces, predicted motion), as least squares about one pose near the solution.
 struct QuadraticTerm
 {
-  Eigen::Isometry3d T_camera_world = Eigen::Isometry3d::Identity();  ///< where the equations hold
+  Eigen::Isometry3d T_camera_world = Eigen::Isometry3d::Identity();  ///< about which the equations are linearised
   geometry::NormalEquations equations;
 
   geometry::NormalEquations at(const Eigen::Isometry3d& T) const;
@@ -35,9 +35,9 @@ struct PoseEstimationOptions
   double pixel_sigma_px = 0.5;      ///< before there are residuals
   double max_reprojection_error_px = 2.5;  ///< inlier gate; up to twice as wide for a frame whose errors all are large
   double depth_gate_sigmas = 4.0;          ///< depth that fits worse does not count
-  int max_hypotheses = 200;
-  double confidence_ratio = 0.99;  ///< chance of having drawn one clean sample, at which RANSAC stops
-  int max_iterations = 10;         ///< of the least squares
+  int max_hypotheses = 200;                ///< of RANSAC
+  double confidence_ratio = 0.99;          ///< chance of having drawn one clean sample, at which RANSAC stops
+  int max_iterations = 10;                 ///< of the least squares
   rgbd::SensorNoiseModel noise_model;
 };
 
@@ -53,8 +53,8 @@ struct PoseEstimate
 };
 
 /// Robust least squares (Huber, iteratively re-weighted Gauss-Newton) on reprojection and depth, each with its sigma,
-/// and on `term` if given, from a start that is close. Not valid for fewer than 4 inliers without a term that holds all
-/// six directions.
+/// and on `term` if given, from a start that is close. Not valid for fewer than 4 inliers without a term that
+/// constrains all six directions.
 PoseEstimate refinePose(const std::vector<Correspondence>& correspondences, const geometry::PinholeCamera& camera,
                         const Eigen::Isometry3d& T_world_camera_start, const PoseEstimationOptions& options,
                         const QuadraticTerm* term = nullptr);

@@ -10,7 +10,7 @@
 
 namespace object_modelling::report
 {
-/// What is kept of a session's last bundle adjustment.
+/// Stored figures of a session's last bundle adjustment; as in BundleAdjustmentResult.
 struct RefinementReport
 {
   int iterations = 0;

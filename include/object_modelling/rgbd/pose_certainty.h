@@ -25,11 +25,11 @@ PoseSigma poseSigma(const geometry::Matrix6d& covariance_camera);
 /// Covariance of a motion on the left of T_world_camera as one on the left of T_camera_world.
 geometry::Matrix6d inCameraFrame(const geometry::Matrix6d& covariance_world, const Eigen::Isometry3d& T_world_camera);
 
-/// Which views of a session are of use: what a plain scene leaves open is found out by the covariances, and views that
-/// may be anywhere lay surfaces where there are none.
+/// Which views of a session are of use: the covariances show the directions that a plain scene does not constrain, and
+/// views with such a direction would put surfaces where there are none.
 struct PathCertainty
 {
-  std::vector<std::size_t> unknown;  ///< indices of views whose pose is not known; all zero covariances are believed
+  std::vector<std::size_t> unknown;  ///< indices of views whose pose is not known; zero covariances count as known
   PoseSigma worst;                   ///< of those
   /// More than half are unknown, or fewer than two would be left. Then none is better than others: the covariances are
   /// relative to the first keyframe and do not bound the others relative to each other.

@@ -16,7 +16,7 @@ struct SensorCorrection
   double depth_offset_m = 0;
   /// Measured depth times this is taken off the depth first. 0 on the mean of all knots: the rest is depth_ratio.
   DistortionGrid::Ratios depth_distortion_ratio{};
-  Eigen::Vector2d focal_ratio_sigma{ 0, 0 };
+  Eigen::Vector2d focal_ratio_sigma{ 0, 0 };  ///< of fx, fy
   Eigen::Vector2d principal_shift_sigma_px{ 0, 0 };
   double depth_ratio_sigma = 0;
   double depth_offset_sigma_m = 0;

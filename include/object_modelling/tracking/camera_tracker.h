@@ -27,9 +27,9 @@ enum class Reference : std::uint8_t
 struct CameraTrackerOptions
 {
   Reference reference = Reference::SCENE;
-  int max_features = 300;  ///< tracked per frame
-  int min_inliers = 20;    ///< fewer geometric inliers: the frame is lost
-  double min_inlier_ratio = 0.3;
+  int max_features = 300;                  ///< tracked per frame
+  int min_inliers = 20;                    ///< fewer geometric inliers: the frame is lost
+  double min_inlier_ratio = 0.3;           ///< in [0, 1], of the landmarks found; less: the frame is lost
   double max_reprojection_error_px = 2.5;  ///< inlier gate at the frame's resolution
   double keyframe_angle_rad = 0.20943951;  ///< 12 deg: no stored keyframe views from a direction closer than this ...
   double keyframe_distance_ratio = 0.2;    ///< ... or from within this share of the median depth
@@ -43,12 +43,12 @@ struct CameraTrackerOptions
 /// Wall time that the steps of one frame took.
 struct StageTimes
 {
-  double pyramid_ms = 0;
+  double pyramid_ms = 0;      ///< image pyramids and blur
   double flow_ms = 0;         ///< optical flow and the rough pose
   double map_ms = 0;          ///< patches of the map's landmarks
   double dense_ms = 0;        ///< depth and intensity of all surfaces
   double recognition_ms = 0;  ///< only where the steps above failed
-  double keyframe_ms = 0;
+  double keyframe_ms = 0;     ///< making a keyframe of the frame
 };
 
 /// Result of tracking one frame.
@@ -60,8 +60,8 @@ struct TrackingResult
                        ///< all is well
   Eigen::Isometry3d T_session_camera = Eigen::Isometry3d::Identity();  ///< valid if tracked()
   geometry::Matrix6d covariance = geometry::Matrix6d::Zero();          ///< of T_session_camera
-  int feature_count = 0;
-  int inlier_count = 0;
+  int feature_count = 0;            ///< landmarks of the last frame; of the first one, its own
+  int inlier_count = 0;             ///< landmarks that fit the pose
   double reprojection_rmse_px = 0;  ///< of the inliers
   double speed_m_per_s = 0;
   double angular_speed_rad_per_s = 0;
