@@ -7,6 +7,7 @@
 #include "object_modelling/alignment/pair_evidence.h"
 #include "object_modelling/base/options.h"
 #include "object_modelling/base/status.h"
+#include "object_modelling/geometry/linear_systems.h"
 #include "object_modelling/geometry/transform.h"
 #include "object_modelling/registration/pair_refinement.h"
 
@@ -24,7 +25,7 @@ base::Error refused(const std::string& what)
   return { base::StatusCode::INVALID_ARGUMENT, what };
 }
 
-std::string millimetres(double length_m)
+std::string wholeMillimetres(double length_m)
 {
   return std::to_string(std::lround(1000 * length_m)) + " mm";
 }
@@ -33,8 +34,8 @@ std::string millimetres(double length_m)
 double widthOf(const Eigen::Matrix3Xd& points)
 {
   const Eigen::Matrix3Xd off = points.colwise() - points.rowwise().mean();
-  const Eigen::JacobiSVD<Eigen::Matrix3Xd> svd(off);
-  return svd.singularValues()(1);
+  const Eigen::Matrix3d scatter = off * off.transpose();
+  return std::sqrt(std::max(0.0, geometry::eigenSystem(scatter).values[1]));
 }
 }  // namespace
 
@@ -58,15 +59,15 @@ PairCandidate alignByPoints(const registration::PartialModel& a, const registrat
     throw refused("a point is not finite");
   const double width_m = std::min(widthOf(in_a), widthOf(in_b));
   if (width_m < MIN_WIDTH_M)
-    throw refused("the points lie on one line, or at one place (" + millimetres(width_m) +
+    throw refused("the points lie on one line, or at one place (" + wholeMillimetres(width_m) +
                   " wide): choose them apart, in a triangle");
   Eigen::Isometry3d clicked;
   if (!geometry::rigidTransformFromPoints(in_a, in_b, &clicked))
     throw refused("the points do not tell a pose: choose them apart, in a triangle");
   const double mismatch_m = (in_a - clicked * in_b).norm() / std::sqrt(static_cast<double>(pairs.size()));
   if (mismatch_m > MAX_MISMATCH_M)
-    throw refused("the points of the two sessions do not fit each other by " + millimetres(mismatch_m) + " (at most " +
-                  millimetres(MAX_MISMATCH_M) + "): point at the same spots, in the same order");
+    throw refused("the points of the two sessions do not fit each other by " + wholeMillimetres(mismatch_m) +
+                  " (at most " + wholeMillimetres(MAX_MISMATCH_M) + "): point at the same spots, in the same order");
 
   const registration::MatchedSurface part_a(a, options.threads), part_b(b, options.threads);
   control.checkCancelled();

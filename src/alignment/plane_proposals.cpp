@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "object_modelling/geometry/convex_hull.h"
+#include "object_modelling/geometry/transform.h"
 #include "proposals.h"
 
 namespace object_modelling::alignment
@@ -76,7 +77,7 @@ std::vector<Eigen::Isometry3f> placements(const registration::MatchedSurface& st
       static_cast<float>(standing.model.support_plane->signedDistance_m(standing.centre.cast<double>()));
   for (const Foot& foot : feetOf(moving))
   {
-    const Eigen::Matrix3f upright = Eigen::Quaternionf::FromTwoVectors(foot.normal, -up).toRotationMatrix();
+    const Eigen::Matrix3f upright = geometry::rotationBetween(foot.normal, Eigen::Vector3f(-up));
     for (int i = 0; i < ROTATIONS; ++i)
     {
       Eigen::Isometry3f T = Eigen::Isometry3f::Identity();

@@ -1,8 +1,8 @@
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/rotation.h>
-#include <Eigen/Eigenvalues>
 
 #include "cost_functions.h"
+#include "object_modelling/geometry/linear_systems.h"
 
 namespace object_modelling::bundle_adjustment
 {
@@ -16,8 +16,8 @@ using Vector3 = Eigen::Matrix<T, 3, 1>;
 /// W with W^T W = information, which may be singular: directions that nothing is known of.
 geometry::Matrix6d rootOf(const geometry::Matrix6d& information)
 {
-  const Eigen::SelfAdjointEigenSolver<geometry::Matrix6d> eigen(information);
-  return eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
+  const geometry::EigenSystem<6> system = geometry::eigenSystem(information);
+  return system.values.cwiseMax(0).cwiseSqrt().asDiagonal() * system.vectors.transpose();
 }
 
 class SurfaceCost

@@ -5,13 +5,15 @@
 
 #include <Eigen/Dense>
 
+#include "object_modelling/geometry/linear_systems.h"
+
 namespace object_modelling::calibration
 {
 namespace
 {
 constexpr double MAX_STAMP_DIFFERENCE_S = 0.05;
 /// On a slanted wall a bias that is no share of depth bends and turns the plane.
-constexpr double MAX_THETA_RAD = 25 * M_PI / 180;
+constexpr double FRONTAL_THETA_RAD = 25 * M_PI / 180;
 constexpr double APART_M = 0.2;  ///< closer distances count as one place
 constexpr double SPAN_FOR_QUADRATIC_M = 1;
 
@@ -31,7 +33,7 @@ std::vector<Reading> readingsOf(const std::vector<WallView>& views, const std::v
                          [&](const WallView& a, const WallView& b)
                          { return std::abs(a.stamp_s - distance.stamp_s) < std::abs(b.stamp_s - distance.stamp_s); });
     if (nearest == views.end() || std::abs(nearest->stamp_s - distance.stamp_s) > MAX_STAMP_DIFFERENCE_S ||
-        nearest->theta_rad(0, 0) > MAX_THETA_RAD)
+        nearest->theta_rad(0, 0) > FRONTAL_THETA_RAD)
       continue;
     Reading reading;
     for (const WallBlock& block : nearest->blocks)
@@ -87,7 +89,7 @@ void fitBias(const std::vector<WallView>& views, const std::vector<MeasuredDista
         A(i, k) = std::pow(readings[i].z_m, k);
       b[i] = readings[i].bias_m;
     }
-    const Eigen::VectorXd solution = A.colPivHouseholderQr().solve(b);
+    const Eigen::VectorXd solution = geometry::leastSquares(A, b);
     for (int k = 0; k < 3; ++k)
     {
       reports[k].fitted = k < count;

@@ -7,6 +7,8 @@
 
 #include <Eigen/Dense>
 
+#include "object_modelling/geometry/linear_systems.h"
+
 namespace object_modelling::calibration
 {
 namespace
@@ -53,7 +55,7 @@ ViewEquations equationsOf(const WallView& view, const Image& image)
 /// What no plane explains.
 Eigen::MatrixXd withoutPlane(const Eigen::MatrixXd& plane, const Eigen::MatrixXd& columns)
 {
-  return columns - plane * plane.colPivHouseholderQr().solve(columns);
+  return columns - plane * geometry::leastSquares(plane, columns);
 }
 
 void addSmoothness(Eigen::MatrixXd* A)
@@ -90,7 +92,7 @@ Eigen::VectorXd fitKnots(const std::vector<ViewEquations>& views)
     A += weight * knots.transpose() * knots;
     b += weight * knots.transpose() * view.offsets;
   }
-  return A.ldlt().solve(b);
+  return geometry::solveSymmetric(A, b);
 }
 
 double flatness(const std::vector<ViewEquations>& views, const Eigen::VectorXd& knots)

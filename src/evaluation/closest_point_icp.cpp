@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "object_modelling/base/statistics.h"
+#include "object_modelling/geometry/linear_systems.h"
 #include "object_modelling/geometry/transform.h"
 
 namespace object_modelling::evaluation
@@ -117,7 +118,7 @@ double fitToSurface(const std::vector<Eigen::Vector3d>& points, const mesh::Refe
   scale.tail<3>() /= std::max(radius_m, smallest_m);
   A = scale.asDiagonal() * A * scale.asDiagonal();
   A.diagonal().array() += 1e-9 * A.trace() + 1e-30;
-  geometry::Vector6d step = A.ldlt().solve(scale.asDiagonal() * b);
+  geometry::Vector6d step = geometry::solveSymmetric(A, scale.asDiagonal() * b);
   const double size_m = step.norm();
   step = scale.asDiagonal() * step;
   const Eigen::Isometry3d about_center =

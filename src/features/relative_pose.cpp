@@ -5,9 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include <Eigen/Cholesky>
-
 #include "object_modelling/base/ransac.h"
+#include "object_modelling/geometry/linear_systems.h"
 #include "object_modelling/geometry/so3.h"
 #include "object_modelling/geometry/transform.h"
 
@@ -114,10 +113,8 @@ void refineStep(const std::vector<PointPair>& pairs, const Prepared& prepared, d
     A += weight * J.transpose() * information * J;
     b += weight * J.transpose() * information * error;
   }
-  const Eigen::LDLT<geometry::Matrix6d> ldlt(A);
-  if (ldlt.info() != Eigen::Success || ldlt.rcond() < 1e-12)
-    return;
-  *T_a_b = geometry::normalised(geometry::isometryFromVector(ldlt.solve(b)) * *T_a_b);
+  if (const std::optional<geometry::Vector6d> step = geometry::solveWellPosed(A, b))
+    *T_a_b = geometry::normalised(geometry::isometryFromVector(*step) * *T_a_b);
 }
 
 }  // namespace

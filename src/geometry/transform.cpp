@@ -66,6 +66,35 @@ double rotationAngle_rad(const Eigen::Isometry3d& T)
   return 2.0 * std::atan2(q.vec().norm(), std::abs(q.w()));
 }
 
+namespace
+{
+template <typename Scalar>
+Eigen::Matrix<Scalar, 3, 3> rotationBetweenOf(const Eigen::Matrix<Scalar, 3, 1>& from,
+                                              const Eigen::Matrix<Scalar, 3, 1>& to)
+{
+  const Eigen::Matrix<Scalar, 3, 1> a = from.normalized(), b = to.normalized();
+  const Scalar cosine = b.dot(a);
+  if (cosine < -1 + Eigen::NumTraits<Scalar>::dummy_precision())
+    return Eigen::AngleAxis<Scalar>(Scalar(M_PI), a.unitOrthogonal()).toRotationMatrix();
+  const Eigen::Matrix<Scalar, 3, 1> axis = a.cross(b);
+  const Scalar s = std::sqrt((1 + cosine) * 2);
+  Eigen::Quaternion<Scalar> q;
+  q.vec() = axis * (1 / s);
+  q.w() = s * Scalar(0.5);
+  return q.toRotationMatrix();
+}
+}  // namespace
+
+Eigen::Matrix3d rotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+{
+  return rotationBetweenOf<double>(from, to);
+}
+
+Eigen::Matrix3f rotationBetween(const Eigen::Vector3f& from, const Eigen::Vector3f& to)
+{
+  return rotationBetweenOf<float>(from, to);
+}
+
 Eigen::Isometry3d normalised(const Eigen::Isometry3d& T)
 {
   return isometryFrom(Eigen::Quaterniond(T.linear()), T.translation());

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "object_modelling/geometry/linear_systems.h"
 
 namespace object_modelling::multi_view_icp
 {
@@ -12,22 +12,20 @@ namespace
 // Neighbouring points err alike (interpolation, calibration, smooth distortion of depth): so many weigh as much as one.
 constexpr double CORRELATED_POINTS = 30;
 constexpr double UNKNOWN_M = 1, UNKNOWN_RAD = 1;  // sigma of directions that the pairs do not constrain
-constexpr double FREE_M = 0.02;        // of points on the surface: a direction of larger sigma counts as free
-constexpr double LEVER_M = 0.1;        // size of an object, by which angles compare with lengths
-constexpr double AXIS_DISTANCE_M = 1;  // a rotation about an axis farther away counts as a translation
+constexpr double FREE_M = 0.02;         // of points on the surface: a direction of larger sigma counts as free
+constexpr double OBJECT_LEVER_M = 0.1;  // size of an object, by which angles compare with lengths
+constexpr double AXIS_DISTANCE_M = 1;   // a rotation about an axis farther away counts as a translation
 constexpr int DEPTH_STEP_PX = 16;
 
 /// Information of a pair less the part due to noise: A v = lambda N v gives directions v with lambda, the ratio of
 /// their information to the noise's (as in the tracker's dense alignment).
 geometry::Matrix6d withoutNoise(const geometry::Matrix6d& A, const geometry::Matrix6d& noise)
 {
-  geometry::Matrix6d N = noise;
-  N.diagonal().array() += 1e-9 * noise.diagonal().maxCoeff() + 1e-12;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<geometry::Matrix6d> solver(A, N);
-  if (solver.info() != Eigen::Success)
+  const auto information = geometry::informationOverNoise(A, noise);
+  if (!information)
     return geometry::Matrix6d::Zero();
-  const geometry::Matrix6d U = N * solver.eigenvectors();
-  const geometry::Vector6d kept = (solver.eigenvalues().array() - NOISE_FACTOR).max(0.0);
+  const geometry::Matrix6d U = information->N * information->V;
+  const geometry::Vector6d kept = (information->ratios.array() - NOISE_FACTOR).max(0.0);
   return U * kept.asDiagonal() * U.transpose();
 }
 
@@ -65,15 +63,13 @@ FreeDirection directionOf(int view, const Eigen::Vector3d& t, const Eigen::Vecto
 std::vector<FreeDirection> unresisted(int view, const geometry::Matrix6d& A, const geometry::Matrix6d& noise,
                                       const Eigen::Vector3d& centre)
 {
-  geometry::Matrix6d N = noise;
-  N.diagonal().array() += 1e-9 * noise.diagonal().maxCoeff() + 1e-12;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<geometry::Matrix6d> solver(A, N);
+  const auto information = geometry::informationOverNoise(A, noise);
   std::vector<FreeDirection> directions;
-  for (int i = 0; i < 6; ++i)
+  for (int i = 0; information && i < 6; ++i)
   {
-    if (!(solver.eigenvalues()[i] < NOISE_FACTOR))
+    if (!(information->ratios[i] < NOISE_FACTOR))
       continue;
-    const geometry::Vector6d motion = solver.eigenvectors().col(i);
+    const geometry::Vector6d motion = information->V.col(i);
     const Eigen::Vector3d r = motion.tail<3>();
     directions.push_back(directionOf(view, motion.head<3>() + r.cross(centre), r, centre));
   }
@@ -83,17 +79,18 @@ std::vector<FreeDirection> unresisted(int view, const geometry::Matrix6d& A, con
 /// Directions of a pose that are not known, given what it sees about `centre` (world).
 std::vector<FreeDirection> unknown(int view, const geometry::Matrix6d& covariance, const Eigen::Vector3d& centre)
 {
-  // As displacements: of the centre, and of points LEVER_M from it.
+  // As displacements: of the centre, and of points OBJECT_LEVER_M from it.
   geometry::Matrix6d to_centre = geometry::adjoint(Eigen::Isometry3d(Eigen::Translation3d(-centre)));
-  to_centre.bottomRows<3>() *= LEVER_M;
-  const Eigen::SelfAdjointEigenSolver<geometry::Matrix6d> solver(to_centre * covariance * to_centre.transpose());
+  to_centre.bottomRows<3>() *= OBJECT_LEVER_M;
+  const geometry::Matrix6d displacements = to_centre * covariance * to_centre.transpose();
+  const geometry::EigenSystem<6> system = geometry::eigenSystem(displacements);
   std::vector<FreeDirection> directions;
   for (int i = 0; i < 6; ++i)
   {
-    if (!(solver.eigenvalues()[i] > FREE_M * FREE_M))
+    if (!(system.values[i] > FREE_M * FREE_M))
       continue;
-    const Eigen::Vector3d t = solver.eigenvectors().col(i).head<3>();
-    const Eigen::Vector3d r = solver.eigenvectors().col(i).tail<3>() / LEVER_M;
+    const Eigen::Vector3d t = system.vectors.col(i).head<3>();
+    const Eigen::Vector3d r = system.vectors.col(i).tail<3>() / OBJECT_LEVER_M;
     directions.push_back(directionOf(view, t, r, centre));
   }
   return directions;

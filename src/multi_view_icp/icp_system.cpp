@@ -2,8 +2,9 @@
 
 #include <map>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
+
+#include "object_modelling/geometry/linear_systems.h"
 
 namespace object_modelling::multi_view_icp
 {
@@ -123,15 +124,13 @@ std::optional<std::vector<geometry::Vector6d>> solveResisted(const std::vector<P
     const Eigen::MatrixXd lower(matrixOf(equations, rows, unknowns, geometry::Matrix6d::Zero()));
     return Eigen::MatrixXd(lower.selfadjointView<Eigen::Lower>());
   };
-  Eigen::MatrixXd N = dense(of_noise);
-  N.diagonal().array() += 1e-9 * N.diagonal().maxCoeff() + 1e-12;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(dense(pairs), N);
-  if (solver.info() != Eigen::Success)
+  const auto information = geometry::informationOverNoise(dense(pairs), dense(of_noise));
+  if (!information)
     return std::nullopt;
-  Eigen::VectorXd along = solver.eigenvectors().transpose() * rightSideOf(pairs, rows, unknowns);
+  Eigen::VectorXd along = information->V.transpose() * rightSideOf(pairs, rows, unknowns);
   for (int i = 0; i < unknowns; ++i)
-    along[i] *= solver.eigenvalues()[i] > NOISE_FACTOR ? 1 / ((1 + damping) * solver.eigenvalues()[i]) : 0;
-  return motionsOf(solver.eigenvectors() * along, rows);
+    along[i] *= information->ratios[i] > NOISE_FACTOR ? 1 / ((1 + damping) * information->ratios[i]) : 0;
+  return motionsOf(information->V * along, rows);
 }
 
 std::vector<geometry::Matrix6d> motionCovariances(const std::vector<PairEquations>& pairs,

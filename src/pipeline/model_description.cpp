@@ -1,6 +1,7 @@
 #include "model_description.h"
 
 #include "object_modelling/geometry/plane.h"
+#include "object_modelling/geometry/transform.h"
 
 namespace object_modelling::pipeline
 {
@@ -46,8 +47,7 @@ void describe(const Views& views, const std::vector<alignment::SessionPlacement>
     // A resting pose of the recordings: model frame lifted to stand on z = 0.
     const geometry::Plane plane_model = geometry::transformed(T_model_reference, plane);
     Eigen::Isometry3d T_support_model = Eigen::Isometry3d::Identity();
-    T_support_model.linear() =
-        Eigen::Quaterniond::FromTwoVectors(plane_model.normal, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    T_support_model.linear() = geometry::rotationBetween(plane_model.normal, Eigen::Vector3d::UnitZ());
     T_support_model.translation().z() = plane_model.offset_m;
     model->T_support_model.push_back(T_support_model);
   }

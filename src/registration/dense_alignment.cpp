@@ -6,14 +6,15 @@
 #include <Eigen/Dense>
 
 #include "dense_residuals.h"
+#include "object_modelling/geometry/linear_systems.h"
 
 namespace object_modelling::registration
 {
 namespace
 {
-constexpr double CONVERGED_STEP_SIGMAS = 0.5;  // of the estimate; the least squares with features goes on from there
-constexpr double CONVERGED_STEP = 1e-4;        // m and rad at the finest level, however well it is known
-constexpr std::size_t MIN_POINTS = 60;
+constexpr double CONVERGED_STEP_SIGMAS = 0.5;   // of the estimate; the least squares with features goes on from there
+constexpr double FINEST_CONVERGED_STEP = 1e-4;  // m and rad at the finest level, however well it is known
+constexpr std::size_t MIN_RESIDUALS = 60;
 // Errors of the directions along which residuals are measured. They let a surface slide along itself, and yet count as
 // knowledge of where it is.
 constexpr float GRADIENT_NOISE = 0.5F;        // grey levels per pixel: sensor and compression
@@ -130,18 +131,16 @@ geometry::Matrix6d noiseOf(const DenseResiduals& residuals, const DenseLevel& le
 /// information to the noise's; each keeps the excess. The minimum does not move.
 void removeNoise(const geometry::Matrix6d& noise, geometry::NormalEquations* equations)
 {
-  geometry::Matrix6d N = noise;
-  N.diagonal().array() += 1e-9 * noise.diagonal().maxCoeff() + 1e-12;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<geometry::Matrix6d> solver(equations->A, N);
-  if (solver.info() != Eigen::Success)
+  const auto information = geometry::informationOverNoise(equations->A, noise);
+  if (!information)
     return;
   // With V^T N V = 1: A = U diag(lambda) U^T and b = U (V^T b), where U = N V.
-  const geometry::Matrix6d& V = solver.eigenvectors();
-  const geometry::Matrix6d U = N * V;
-  geometry::Vector6d kept = (solver.eigenvalues().array() - NOISE_FACTOR).max(0.0);
+  const geometry::Matrix6d& V = information->V;
+  const geometry::Matrix6d U = information->N * V;
+  geometry::Vector6d kept = (information->ratios.array() - NOISE_FACTOR).max(0.0);
   const geometry::Vector6d b = V.transpose() * equations->b;
   equations->A = U * kept.asDiagonal() * U.transpose();
-  kept.array() /= solver.eigenvalues().array().max(NOISE_FACTOR);
+  kept.array() /= information->ratios.array().max(NOISE_FACTOR);
   equations->b = U * kept.cwiseProduct(b);
 }
 
@@ -156,7 +155,7 @@ DenseTerm evaluate(const DensePoints& points, const DenseLevel& level, const Eig
       points.all.empty() ? 0 : static_cast<double>(residuals->in_view) / static_cast<double>(points.all.size());
   term.depth_agreement =
       residuals->with_depth > 0 ? static_cast<double>(residuals->agreeing) / residuals->with_depth : 0;
-  if (residuals->all.size() < MIN_POINTS)
+  if (residuals->all.size() < MIN_RESIDUALS)
     return term;
   term.correlation = residuals->correlation;
   term.intensity_scale = residuals->intensity_scale;
@@ -206,11 +205,11 @@ DenseAlignment alignDense(const DenseReference& reference, const Eigen::Isometry
           geometry::vectorFromIsometry(T_camera_world * T_camera_world_start.inverse());
       equations.A += prior;
       equations.b -= prior * off_start;
-      const geometry::Vector6d step = equations.A.ldlt().solve(equations.b);
+      const geometry::Vector6d step = geometry::solveSymmetric(equations.A, equations.b);
       if (!step.allFinite())
         return without_noise(i);
       const double coarse = level.step / static_cast<double>(frame.levels()[0].step);
-      small_step = step.cwiseAbs().maxCoeff() < CONVERGED_STEP * coarse * coarse ||
+      small_step = step.cwiseAbs().maxCoeff() < FINEST_CONVERGED_STEP * coarse * coarse ||
                    step.dot(equations.A * step) < CONVERGED_STEP_SIGMAS * CONVERGED_STEP_SIGMAS;
       // The term stands for the pose at which it was evaluated, so the last step is left to whoever uses the term.
       if (!small_step || i > options.finest_level)

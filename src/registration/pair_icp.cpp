@@ -5,13 +5,14 @@
 
 #include <Eigen/Dense>
 
+#include "object_modelling/geometry/linear_systems.h"
 #include "object_modelling/registration/support_contact.h"
 
 namespace object_modelling::registration
 {
 namespace
 {
-constexpr float SAME_SIDE_COSINE = 0.5F;
+constexpr float MIN_MATCH_COSINE = 0.5F;
 constexpr float FREE_DIRECTION_WEIGHT = 1e-5F;  // of the mean information: what nothing constrains stays
 constexpr float CONTACT_WEIGHT =
     0.01F;  // of the mean information: the other's support plane constrains what surfaces do not
@@ -63,7 +64,7 @@ void addPairs(const MatchedSurface& fixed, const MatchedSurface& moving, const E
     if (j < 0)
       continue;
     const Eigen::Vector3f& n = fixed.model.normals[j];
-    if (n.dot(R * moving.model.normals[i]) < SAME_SIDE_COSINE)
+    if (n.dot(R * moving.model.normals[i]) < MIN_MATCH_COSINE)
       continue;
     const Eigen::Vector3f off = q - fixed.model.points[j];
     const float residual = n.dot(off);
@@ -128,7 +129,7 @@ Eigen::Isometry3f alignByIcp(const MatchedSurface& a, const MatchedSurface& b, c
     if (!options.coarse)
       addContact(a, b, T, &equations);
     equations.A.diagonal().array() += FREE_DIRECTION_WEIGHT * equations.A.trace() / 6;
-    const Eigen::Matrix<float, 6, 1> step = equations.A.ldlt().solve(equations.b);
+    const geometry::Vector6f step = geometry::solveSymmetric(equations.A, equations.b);
     if (!step.allFinite())
       return T;
     // About the centre, the arc over the radius.

@@ -10,12 +10,13 @@
 
 #include "object_modelling/base/ransac.h"
 #include "object_modelling/base/statistics.h"
+#include "object_modelling/geometry/linear_systems.h"
 
 namespace object_modelling::registration
 {
 namespace
 {
-constexpr double CONVERGED_STEP = 1e-7;  // m and rad
+constexpr double POSE_CONVERGED_STEP = 1e-7;  // m and rad
 constexpr double MIN_DEPTH_M = 0.05;
 
 /// Both the point and the measurement come from a depth image.
@@ -118,12 +119,11 @@ PoseEstimate solve(const std::vector<Correspondence>& correspondences, const geo
   for (int iteration = 0; iteration < options.max_iterations; ++iteration)
   {
     const geometry::NormalEquations equations = equations_at(T_camera_world);
-    const Eigen::LDLT<geometry::Matrix6d> solver(equations.A);
-    if (solver.info() != Eigen::Success || solver.rcond() < 1e-12)
+    const std::optional<geometry::Vector6d> step = geometry::solveWellPosed(equations.A, equations.b);
+    if (!step)
       return estimate;
-    const geometry::Vector6d step = solver.solve(equations.b);
-    T_camera_world = geometry::normalised(geometry::isometryFromVector(step) * T_camera_world);
-    if (step.cwiseAbs().maxCoeff() < CONVERGED_STEP)
+    T_camera_world = geometry::normalised(geometry::isometryFromVector(*step) * T_camera_world);
+    if (step->cwiseAbs().maxCoeff() < POSE_CONVERGED_STEP)
       break;
   }
   double squared_sum = 0;
@@ -143,7 +143,7 @@ PoseEstimate solve(const std::vector<Correspondence>& correspondences, const geo
   estimate.valid = true;
   estimate.T_world_camera = T_camera_world.inverse();
   estimate.reprojection_rmse_px = std::sqrt(squared_sum / std::max(1, estimate.inlier_count));
-  estimate.covariance = equations_at(T_camera_world).A.inverse();
+  estimate.covariance = geometry::inverseOf(equations_at(T_camera_world).A);
   return estimate;
 }
 

@@ -1,10 +1,9 @@
 #include "exposure.h"
 #include "object_modelling/geometry/image_sampling.h"
+#include "object_modelling/geometry/linear_systems.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/Cholesky>
 
 namespace object_modelling::texture
 {
@@ -12,7 +11,7 @@ namespace
 {
 constexpr int ITERATIONS = 5;
 constexpr float DARKEST = 12, BRIGHTEST = 243;  ///< levels beyond are noise or clipped
-constexpr double LOG_SIGMA = 0.05;              ///< differences beyond are highlights or edges
+constexpr double EXPOSURE_LOG_SIGMA = 0.05;     ///< differences beyond are highlights or edges
 constexpr double PRIOR = 1e-3;                  ///< of a view's total weight
 
 struct LogColor
@@ -64,7 +63,7 @@ Eigen::VectorXd solveChannel(const std::vector<std::vector<LogColor>>& samples, 
     double mean = 0;
     for (const LogColor& sample : of_vertex)
     {
-      const double ratio = (sample.log_bgr[channel] + previous[sample.view] - common) / LOG_SIGMA;
+      const double ratio = (sample.log_bgr[channel] + previous[sample.view] - common) / EXPOSURE_LOG_SIGMA;
       weight.push_back(1 / (1 + ratio * ratio));
       total += weight.back();
       mean += weight.back() * sample.log_bgr[channel];
@@ -80,7 +79,7 @@ Eigen::VectorXd solveChannel(const std::vector<std::vector<LogColor>>& samples, 
     }
   }
   normal.diagonal() += PRIOR * normal.diagonal() + Eigen::VectorXd::Constant(count, 1e-9);
-  Eigen::VectorXd log_gains = normal.ldlt().solve(right);
+  Eigen::VectorXd log_gains = geometry::solveSymmetric(normal, right);
   return log_gains.array() - log_gains.mean();
 }
 }  // namespace

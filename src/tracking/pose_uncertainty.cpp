@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include "object_modelling/geometry/linear_systems.h"
 #include "object_modelling/rgbd/pose_certainty.h"
 
 namespace object_modelling::tracking
@@ -54,7 +55,8 @@ registration::QuadraticTerm predictionTerm(const Eigen::Isometry3d& T_session_ca
 {
   registration::QuadraticTerm term;
   term.T_camera_world = T_session_camera.inverse();
-  term.equations.A = (rgbd::inCameraFrame(covariance_before, T_session_camera) + covariance_of_motion).inverse();
+  term.equations.A =
+      geometry::inverseOf(rgbd::inCameraFrame(covariance_before, T_session_camera) + covariance_of_motion);
   return term;
 }
 

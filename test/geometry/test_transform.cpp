@@ -142,5 +142,26 @@ TEST(RigidTransformFromPoints, RefusesDegenerateInput)
   EXPECT_TRANSFORM_NEAR(T, someTransform(), 0, 1e-7);  // untouched
 }
 
+TEST(Transform, RotationBetweenTakesOneDirectionToTheOther)
+{
+  const Eigen::Vector3d from(0.3, -1, 2), to(-1, 0.2, 0.1);
+  const Eigen::Matrix3d R = rotationBetween(from, to);
+  EXPECT_TRUE((R * from.normalized()).isApprox(to.normalized(), 1e-12));
+  EXPECT_NEAR(R.determinant(), 1, 1e-12);
+  // The smallest one: about an axis that is perpendicular to both.
+  EXPECT_TRUE((R * from.cross(to)).isApprox(from.cross(to), 1e-12));
+  EXPECT_TRUE(rotationBetween(Eigen::Vector3f(from.cast<float>()), Eigen::Vector3f(to.cast<float>()))
+                  .isApprox(R.cast<float>(), 1e-5F));
+}
+
+TEST(Transform, RotationBetweenEqualAndOppositeDirections)
+{
+  const Eigen::Vector3d direction(1, 2, -0.5);
+  EXPECT_TRUE(rotationBetween(direction, 3 * direction).isApprox(Eigen::Matrix3d::Identity(), 1e-9));
+  const Eigen::Matrix3d R = rotationBetween(direction, -direction);
+  EXPECT_TRUE((R * direction).isApprox(-direction, 1e-9));
+  EXPECT_NEAR(R.determinant(), 1, 1e-9);
+}
+
 }  // namespace
 }  // namespace object_modelling::geometry

@@ -23,6 +23,10 @@ Matrix6d adjoint(const Eigen::Isometry3d& T_a_b);
 /// Angle of a rotation in [0, pi].
 double rotationAngle_rad(const Eigen::Isometry3d& T);
 
+/// Smallest rotation that takes the direction `from` to the direction `to`; neither is zero.
+Eigen::Matrix3d rotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+Eigen::Matrix3f rotationBetween(const Eigen::Vector3f& from, const Eigen::Vector3f& to);
+
 /// Re-orthonormalised copy, for products of many transforms.
 Eigen::Isometry3d normalised(const Eigen::Isometry3d& T);
 

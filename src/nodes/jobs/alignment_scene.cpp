@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "alignment_message.h"
+#include "object_modelling/geometry/transform.h"
 
 namespace object_modelling::nodes
 {
@@ -22,7 +23,7 @@ Eigen::Isometry3d uprightFrom(const registration::PartialModel& part)
   const Eigen::Vector3d up =
       part.support_plane ? part.support_plane->normal : Eigen::Vector3d(0, -1, 0);  // of a camera held level
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  T.linear() = geometry::rotationBetween(up, Eigen::Vector3d::UnitZ());
   T.translation() = -T.linear() * part.centre().cast<double>();
   return T;
 }
