@@ -60,13 +60,17 @@ build() {
   if command -v ccache >/dev/null; then
     launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
     # Relative paths in the cache's keys: another clone of the same tree finds what this one compiled.
-    export CCACHE_BASEDIR="$root" CCACHE_NOHASHDIR=1
+    # The last: it may keep what was compiled with precompiled headers.
+    export CCACHE_BASEDIR="$root" CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
   fi
+  # Messages for C++ and Python; the other languages' would take as long again.
+  export ROS_LANG_DISABLE="${ROS_LANG_DISABLE-geneus:genlisp:gennodejs}"
   if [ ! -f "$build_dir/build.ninja" ] || [ "${#cmake_arguments[@]}" -gt 0 ]; then
     echo "Configuring in $build_dir"
     # An own PATH for the build: a pyenv or venv python3 has no modules of ROS.
     PATH="/usr/bin:$PATH" cmake -S "$root" -B "$build_dir" -G Ninja -DCMAKE_BUILD_TYPE="$build_type" \
-      -DOBJECT_MODELLING_WARNINGS_AS_ERRORS=ON "${launcher[@]}" "${cmake_arguments[@]}" >"$log" 2>&1 ||
+      -DOBJECT_MODELLING_WARNINGS_AS_ERRORS=ON \
+      -DOBJECT_MODELLING_UNITY_BUILD="${OBJECT_MODELLING_UNITY_BUILD:-ON}" "${launcher[@]}" "${cmake_arguments[@]}" >"$log" 2>&1 ||
       { tail -n 30 "$log" >&2; fail "configuring failed; the whole log is $log"; }
   fi
   local command=(cmake --build "$build_dir")

@@ -12,7 +12,7 @@ namespace
 namespace names = ros_bridge::names;
 
 /// A second of images: what overflows here is lost without being counted, and pairing takes no time.
-constexpr int QUEUE_SIZE = 30;
+constexpr int INPUT_QUEUE_SIZE = 30;
 constexpr double WATCH_PERIOD_S = 0.5;
 constexpr double WARNING_PERIOD_S = 5;
 }  // namespace
@@ -72,7 +72,8 @@ ros::Subscriber CameraTrackerNode::subscribe(
     watch_.gotFrame(now);
     slot_.put(std::move(*frame));
   };
-  return node.subscribe<Message>(topic, QUEUE_SIZE, take, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+  return node.subscribe<Message>(topic, INPUT_QUEUE_SIZE, take, ros::VoidConstPtr(),
+                                 ros::TransportHints().tcpNoDelay());
 }
 
 bool CameraTrackerNode::waitsForMasks() const

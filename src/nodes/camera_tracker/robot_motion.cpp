@@ -7,7 +7,7 @@ namespace object_modelling::nodes
 {
 namespace
 {
-const ros::WallDuration POLL_PERIOD(0.001);
+const ros::WallDuration HISTORY_POLL_PERIOD(0.001);
 
 Eigen::Isometry3d fromTransform(const geometry_msgs::TransformStamped& target_from_source)
 {
@@ -58,7 +58,7 @@ RobotPose RobotMotion::at(const std_msgs::Header& camera) const
                prefix + "tf does not tell where '" + camera.frame_id + "' is in '" + options_.frame_id + "'",
                reason };
     reason.clear();
-    POLL_PERIOD.sleep();
+    HISTORY_POLL_PERIOD.sleep();
   }
   RobotPose pose;
   const base::Status status = ros_bridge::guarded(

@@ -16,7 +16,7 @@ namespace
 {
 namespace names = ros_bridge::names;
 
-constexpr int QUEUE_SIZE = 10;
+constexpr int OUTPUT_QUEUE_SIZE = 10;
 /// Keyframes must not be lost while the store is busy.
 constexpr int KEYFRAME_QUEUE_SIZE = 200;
 }  // namespace
@@ -24,8 +24,8 @@ constexpr int KEYFRAME_QUEUE_SIZE = 200;
 TrackingPublisher::TrackingPublisher(ros::NodeHandle& private_node, const CameraTrackerNodeOptions& options)
     : session_frame_id_(options.session_frame_id),
       tf_direction_(options.tf_direction),
-      state_(private_node.advertise<TrackingState>(names::STATE, QUEUE_SIZE, true)),
-      pose_(private_node.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", QUEUE_SIZE)),
+      state_(private_node.advertise<TrackingState>(names::STATE, OUTPUT_QUEUE_SIZE, true)),
+      pose_(private_node.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", OUTPUT_QUEUE_SIZE)),
       keyframe_(private_node.advertise<object_modelling::Keyframe>(names::KEYFRAME, KEYFRAME_QUEUE_SIZE)),
       debug_image_(private_node.advertise<sensor_msgs::Image>("debug_image", 1))
 {

@@ -69,6 +69,9 @@ ModelBuilder::ModelBuilder(ros::NodeHandle& node, ros::NodeHandle& private_node,
 {
 }
 
+// The action server is taken down here: its templates cost the compiler seconds wherever they are seen.
+ModelBuilder::~ModelBuilder() = default;
+
 object_modelling::BuildResult ModelBuilder::build(const object_modelling::BuildGoal& goal, base::JobControl& control)
 {
   const std::vector<alignment::SessionPlacement> placements = placementsFrom(goal.placements);

@@ -16,6 +16,7 @@ class ModelBuilder
 {
 public:
   ModelBuilder(ros::NodeHandle& node, ros::NodeHandle& private_node, const ModelBuilderOptions& options);
+  ~ModelBuilder();
 
 private:
   object_modelling::BuildResult build(const object_modelling::BuildGoal& goal, base::JobControl& control);

@@ -107,6 +107,9 @@ Refiner::Refiner(ros::NodeHandle& node, ros::NodeHandle& private_node, const Ref
 {
 }
 
+// The action server is taken down here: its templates cost the compiler seconds wherever they are seen.
+Refiner::~Refiner() = default;
+
 object_modelling::RefineResult Refiner::refine(const object_modelling::RefineGoal& goal, base::JobControl& control)
 {
   requireSessions(goal.session_ids);

@@ -12,6 +12,7 @@ class Refiner
 {
 public:
   Refiner(ros::NodeHandle& node, ros::NodeHandle& private_node, const RefinerOptions& options);
+  ~Refiner();
 
 private:
   object_modelling::RefineResult refine(const object_modelling::RefineGoal& goal, base::JobControl& control);

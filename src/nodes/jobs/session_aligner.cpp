@@ -20,6 +20,9 @@ SessionAligner::SessionAligner(ros::NodeHandle& node, ros::NodeHandle& private_n
 {
 }
 
+// The action server is taken down here: its templates cost the compiler seconds wherever they are seen.
+SessionAligner::~SessionAligner() = default;
+
 namespace
 {
 pipeline::Required requiredBy(const object_modelling::AlignGoal& goal)

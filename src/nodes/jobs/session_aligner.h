@@ -12,6 +12,7 @@ class SessionAligner
 {
 public:
   SessionAligner(ros::NodeHandle& node, ros::NodeHandle& private_node, const SessionAlignerOptions& options);
+  ~SessionAligner();
 
 private:
   object_modelling::AlignResult align(const object_modelling::AlignGoal& goal, base::JobControl& control);
