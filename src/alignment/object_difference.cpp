@@ -17,10 +17,10 @@ static_assert(std::size(DIFFERENCE_WEIGHTS) == DIFFERENCE_FEATURE_COUNT);
 
 constexpr double SAME_SHAPE_SPACINGS = 1.5;  // distance of surfaces that are the same
 constexpr float SAME_SIDE_COSINE = 0.5F;
-constexpr double FREE_STRAY_RATIO = 0.005;  // less is noise
-constexpr double COLOR_VARIANCE = 0.002;    // of colours of one surface, at least
-constexpr double NOISE_QUANTILE = 0.95;     // of the differences of the two sessions' colours at the best pose
-constexpr float COLOR_NOISE = 0.15F;        // difference of colours that is noise in any case
+constexpr double FREE_STRAY_RATIO = 0.005;    // less is noise
+constexpr double MIN_COLOR_VARIANCE = 0.002;  // of colours of one surface, at least
+constexpr double NOISE_QUANTILE = 0.95;       // of the differences of the two sessions' colours at the best pose
+constexpr float COLOR_NOISE = 0.15F;          // difference of colours that is noise in any case
 
 /// What becomes of the points of one part.
 struct Moved
@@ -140,8 +140,8 @@ const char* nameOf(DifferenceFeature feature)
 
 DifferenceFeatures featuresOf(const ObjectDifference& difference, double log_odds_gap)
 {
-  return { std::log(difference.stray_ratio + FREE_STRAY_RATIO), std::log(difference.color_variance + COLOR_VARIANCE),
-           std::clamp(log_odds_gap, 0.0, MAX_RIVALRY) };
+  return { std::log(difference.stray_ratio + FREE_STRAY_RATIO),
+           std::log(difference.color_variance + MIN_COLOR_VARIANCE), std::clamp(log_odds_gap, 0.0, MAX_RIVALRY) };
 }
 
 double sameObjectProbability(const ObjectDifference& difference, double log_odds_gap)

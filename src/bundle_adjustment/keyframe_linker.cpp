@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "in_batches.h"
 #include "link_verification.h"
 #include "object_modelling/base/options.h"
 #include "object_modelling/bundle_adjustment/pair_selection.h"
@@ -10,29 +11,6 @@
 
 namespace object_modelling::bundle_adjustment
 {
-namespace
-{
-// Work between two looks at the job control: short enough to stop soon, long enough to keep the cores busy.
-constexpr int BATCH = 16;
-
-/// Calls work(i) for 0 <= i < count on all cores, in batches with progress. work(i) writes its own result only.
-template <typename Work>
-void inBatches(const std::string& stage, int count, base::JobControl& control, const Work& work)
-{
-  for (int begin = 0; begin < count; begin += BATCH)
-  {
-    control.report(stage, begin, count);
-    cv::parallel_for_(cv::Range(begin, std::min(begin + BATCH, count)),
-                      [&](const cv::Range& range)
-                      {
-                        for (int i = range.start; i < range.end; ++i)
-                          work(i);
-                      });
-  }
-}
-
-}  // namespace
-
 std::vector<std::string> KeyframeLinkerOptions::violations() const
 {
   base::OptionsCheck check("keyframe_linker");

@@ -10,10 +10,8 @@ namespace object_modelling::bundle_adjustment
 {
 namespace
 {
-// Drift of one tracked step or match as share of the distance to the surface, and how many of it a link may be off once
-// the loop is relaxed. A loop of 30 steps that ends 12 % of the distance off passes; a match that is wrong by one
-// period of a pattern (some cm) within a well-tracked stretch does not.
-constexpr double DRIFT_RATIO = 0.004;
+// Drifts that a link may be off once the loop is relaxed. A loop of 30 steps that ends 12 % of the distance off passes;
+// a match that is wrong by one period of a pattern (some cm) within a well-tracked stretch does not.
 constexpr double MAX_DRIFTS = 4.0;
 constexpr double SUPPORT_GATE_SIGMAS = 8.0;
 constexpr double MIN_SUPPORT_RATIO = 0.5;

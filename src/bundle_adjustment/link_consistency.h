@@ -8,6 +8,9 @@
 
 namespace object_modelling::bundle_adjustment
 {
+/// Drift of one tracked step or match, as share of the distance to the surface.
+constexpr double DRIFT_RATIO = 0.004;
+
 /// Edge of a link: its own T_a_b, its own points.
 PoseEdge edgeOfLink(const VerifiedLink& link, const std::vector<rgbd::Keyframe>& keyframes);
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <set>
 
-#include <opencv2/core/utility.hpp>
-
+#include "in_batches.h"
+#include "link_consistency.h"
 #include "object_modelling/base/statistics.h"
 #include "object_modelling/bundle_adjustment/keyframe_linker.h"
 #include "object_modelling/bundle_adjustment/pair_selection.h"
@@ -21,10 +21,8 @@ constexpr double MIN_OVERLAP_RATIO = 0.4;
 constexpr double MAX_VIEW_ANGLE_RAD = 0.7;
 constexpr int MAX_PARTNERS = 4;
 constexpr double OFFSET_STEP_PX = 1;  // beyond what interpolation and noise do
-constexpr int BATCH = 16;
 constexpr int DEPTH_STEP_PX = 16;
-constexpr double PATCH_RATIO = 0.3;    // of the depth: half the field of view
-constexpr double DRIFT_RATIO = 0.004;  // of the depth, as for other edges
+constexpr double PATCH_RATIO = 0.3;  // of the depth: half the field of view
 // There and back again: more between them, and one of the two has slid.
 constexpr double MAX_CONTRADICTION_M = 0.03;
 constexpr double MAX_CONTRADICTION_RAD = 0.03;
@@ -150,26 +148,19 @@ std::vector<SurfaceLink> linkSurfaces(const std::vector<rgbd::Keyframe>& keyfram
   const std::vector<IndexPair> pairs = overlappingPairs(keyframes, object_only);
   std::vector<std::optional<SurfaceLink>> linked(pairs.size());
   const int count = static_cast<int>(pairs.size());
-  for (int begin = 0; begin < count; begin += BATCH)
-  {
-    control.report("surface links", static_cast<std::size_t>(begin), pairs.size());
-    cv::parallel_for_(cv::Range(begin, std::min(begin + BATCH, count)),
-                      [&](const cv::Range& range)
-                      {
-                        for (int i = range.start; i < range.end; ++i)
-                        {
-                          const auto [a, b] = pairs[i];
-                          linked[i] = linkPair(views, pairs[i],
-                                               keyframes[a].T_session_camera.inverse() * keyframes[b].T_session_camera,
-                                               registration::SurfaceStart::ROUGH);
-                          if (!linked[i])
-                            continue;
-                          linked[i]->color_offset_px = color_offset_px;
-                          if (find_by_color_offset)
-                            findByColorOffset(shifted, &*linked[i]);
-                        }
-                      });
-  }
+  inBatches("surface links", count, control,
+            [&](int i)
+            {
+              const auto [a, b] = pairs[i];
+              linked[i] =
+                  linkPair(views, pairs[i], keyframes[a].T_session_camera.inverse() * keyframes[b].T_session_camera,
+                           registration::SurfaceStart::ROUGH);
+              if (!linked[i])
+                return;
+              linked[i]->color_offset_px = color_offset_px;
+              if (find_by_color_offset)
+                findByColorOffset(shifted, &*linked[i]);
+            });
   std::vector<SurfaceLink> links;
   for (const std::optional<SurfaceLink>& link : linked)
     if (link)

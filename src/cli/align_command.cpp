@@ -11,7 +11,7 @@ namespace object_modelling::cli
 {
 namespace
 {
-struct Arguments
+struct AlignArguments
 {
   std::string object_id, store;
   std::vector<std::string> session_ids;
@@ -29,7 +29,7 @@ void requireStore(const std::string& connection)
 }
 
 /// What a person decided comes first.
-void decide(const Arguments& arguments, keyframes::SessionStore& store)
+void decide(const AlignArguments& arguments, keyframes::SessionStore& store)
 {
   if (!arguments.forget.empty())
     pipeline::forgetAlignment(store, arguments.forget[0], arguments.forget[1]);
@@ -39,7 +39,7 @@ void decide(const Arguments& arguments, keyframes::SessionStore& store)
     pipeline::acceptAlignment(store, arguments.accept[0], arguments.accept[1], arguments.candidate);
 }
 
-CommandOutput run(const Arguments& arguments, base::JobControl& control)
+CommandOutput run(const AlignArguments& arguments, base::JobControl& control)
 {
   requireStore(arguments.store);
   const std::unique_ptr<keyframes::SessionStore> store = keyframes::openSqlStore(arguments.store);
@@ -69,7 +69,7 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
 
 void addAlignCommand(CLI::App& app, Command* chosen)
 {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<AlignArguments>();
   CLI::App* command = app.add_subcommand(
       "align", "Relative poses of an object's sessions, recorded in different resting poses; kept in the store");
   command->add_option("object_id", arguments->object_id, "Object whose sessions are aligned")->required();

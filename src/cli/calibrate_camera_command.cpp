@@ -17,7 +17,7 @@ namespace
 {
 constexpr double MAX_SPREAD_PX = 0.15;  // half of what a flat scene errs by
 
-struct Arguments
+struct CalibrateCameraArguments
 {
   std::vector<std::string> recordings;
   std::string output = "noise.yaml";
@@ -33,7 +33,7 @@ enum class Unknown
 };
 
 bundle_adjustment::BundleAdjustmentResult adjusted(const std::string& recording, const rgbd::SensorNoiseModel& model,
-                                                   Unknown unknown, const Arguments& arguments,
+                                                   Unknown unknown, const CalibrateCameraArguments& arguments,
                                                    base::JobControl& control)
 {
   const std::unique_ptr<source::FrameSource> source = ros_bridge::openRecording(recording);
@@ -54,7 +54,7 @@ bundle_adjustment::BundleAdjustmentResult adjusted(const std::string& recording,
   return *refined.bundle_adjustment;
 }
 
-void findColorOffset(const Arguments& arguments, rgbd::SensorNoiseModel* model, CommandOutput* output,
+void findColorOffset(const CalibrateCameraArguments& arguments, rgbd::SensorNoiseModel* model, CommandOutput* output,
                      base::JobControl& control)
 {
   std::ostringstream text;
@@ -88,8 +88,8 @@ void findColorOffset(const Arguments& arguments, rgbd::SensorNoiseModel* model, 
 }
 
 /// What depth is distorted by besides what the model has.
-void findDepthDistortion(const Arguments& arguments, rgbd::SensorNoiseModel* model, CommandOutput* output,
-                         base::JobControl& control)
+void findDepthDistortion(const CalibrateCameraArguments& arguments, rgbd::SensorNoiseModel* model,
+                         CommandOutput* output, base::JobControl& control)
 {
   std::vector<calibration::DistortionEstimate> estimates;
   for (const std::string& recording : arguments.recordings)
@@ -115,7 +115,7 @@ void findDepthDistortion(const Arguments& arguments, rgbd::SensorNoiseModel* mod
   output->text += text.str();
 }
 
-CommandOutput run(const Arguments& arguments, base::JobControl& control)
+CommandOutput run(const CalibrateCameraArguments& arguments, base::JobControl& control)
 {
   requireOutputFolder(arguments.output);
   rgbd::SensorNoiseModel model = recordOptions(arguments.record).frame.noise_model;
@@ -135,7 +135,7 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
 
 void addCalibrateCameraCommand(CLI::App& app, Command* chosen)
 {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CalibrateCameraArguments>();
   CLI::App* command =
       app.add_subcommand("calibrate_camera",
                          "By how much a camera's colour images are shifted against its depth images, and what "

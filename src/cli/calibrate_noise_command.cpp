@@ -12,9 +12,7 @@ namespace object_modelling::cli
 {
 namespace
 {
-constexpr double DEG_PER_RAD = 180 / M_PI;
-
-struct Arguments
+struct CalibrateNoiseArguments
 {
   std::string recording;
   std::string output = "noise.yaml";
@@ -58,8 +56,8 @@ std::string toText(const calibration::NoiseCalibration& result)
   std::ostringstream text;
   text << std::fixed << std::setprecision(2);
   text << "frames    " << result.used_count << " of " << result.frame_count << " show the wall, from " << result.min_z_m
-       << " to " << result.max_z_m << " m, " << std::setprecision(0) << DEG_PER_RAD * result.min_theta_rad << " to "
-       << DEG_PER_RAD * result.max_theta_rad << " deg\n";
+       << " to " << result.max_z_m << " m, " << std::setprecision(0) << result.min_theta_rad * 180 / M_PI << " to "
+       << result.max_theta_rad * 180 / M_PI << " deg\n";
   for (const auto& [reason, count] : result.unused)
     text << "          " << count << " not used: " << reason << "\n";
   for (const calibration::CoefficientReport& report : result.coefficients)
@@ -71,7 +69,7 @@ std::string toText(const calibration::NoiseCalibration& result)
   return text.str();
 }
 
-CommandOutput run(const Arguments& arguments, base::JobControl& control)
+CommandOutput run(const CalibrateNoiseArguments& arguments, base::JobControl& control)
 {
   requireOutputFolder(arguments.output);
   std::vector<calibration::MeasuredDistance> distances;
@@ -95,7 +93,7 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
 
 void addCalibrateNoiseCommand(CLI::App& app, Command* chosen)
 {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CalibrateNoiseArguments>();
   CLI::App* command =
       app.add_subcommand("calibrate_noise", "Noise and depth bias of a sensor from a recording of a flat wall or door");
   command

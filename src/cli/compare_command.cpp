@@ -10,7 +10,7 @@ namespace object_modelling::cli
 {
 namespace
 {
-struct Arguments
+struct CompareArguments
 {
   std::string model, reference;
   double model_unit_m = 1, reference_unit_m = 1;
@@ -97,7 +97,7 @@ CommandOutput describe(const evaluation::Comparison& comparison, const evaluatio
   return output;
 }
 
-CommandOutput run(const Arguments& arguments, base::JobControl& control)
+CommandOutput run(const CompareArguments& arguments, base::JobControl& control)
 {
   evaluation::ComparisonOptions options;
   options.align = !arguments.no_align;
@@ -135,7 +135,7 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
 
 void addCompareCommand(CLI::App& app, Command* chosen)
 {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CompareArguments>();
   const std::map<std::string, double> units{ { "m", 1.0 }, { "cm", 0.01 }, { "mm", 0.001 } };
   const auto add_unit = [&](CLI::App* command, const std::string& name, double* unit_m)
   {

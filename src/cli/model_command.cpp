@@ -16,7 +16,7 @@ namespace object_modelling::cli
 {
 namespace
 {
-struct Arguments
+struct ModelArguments
 {
   std::string object_id;
   std::vector<std::string> recordings;
@@ -94,7 +94,7 @@ private:
 };
 
 /// One recording becomes a stored session; its id.
-std::string record(const std::string& recording, const Arguments& arguments, keyframes::SessionStore& store,
+std::string record(const std::string& recording, const ModelArguments& arguments, keyframes::SessionStore& store,
                    base::JobControl& control, PrintedStages* stages)
 {
   const std::unique_ptr<source::FrameSource> source = ros_bridge::openRecording(recording);
@@ -124,7 +124,7 @@ void requireNewSessions(const std::vector<std::string>& recordings, keyframes::S
 }
 
 /// Those of the object that the store has already take part.
-std::vector<std::string> storedSessions(const Arguments& arguments, keyframes::SessionStore& store)
+std::vector<std::string> storedSessions(const ModelArguments& arguments, keyframes::SessionStore& store)
 {
   std::vector<std::string> ids = pipeline::sessionsOf(store, arguments.object_id);
   if (ids.empty() && arguments.recordings.empty())
@@ -145,7 +145,7 @@ void tellLeftOut(const alignment::AlignmentResult& aligned, nlohmann::json* json
           { { "session_a", edge.session_a }, { "session_b", edge.session_b }, { "reason", edge.reason } });
 }
 
-pipeline::LocalStagesOptions stagesOptions(const Arguments& arguments)
+pipeline::LocalStagesOptions stagesOptions(const ModelArguments& arguments)
 {
   pipeline::LocalStagesOptions options;
   options.object_id = arguments.object_id;
@@ -191,7 +191,7 @@ void tell(const pipeline::ModelOutcome& outcome, const PrintedStages& stages, co
     output->warning = outcome.status.message;
 }
 
-CommandOutput run(const Arguments& arguments, base::JobControl& control)
+CommandOutput run(const ModelArguments& arguments, base::JobControl& control)
 {
   if (arguments.recordings.empty() && arguments.store.empty())
     throw base::Error(base::StatusCode::INVALID_ARGUMENT,
@@ -223,7 +223,7 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
 
 void addModelCommand(CLI::App& app, Command* chosen)
 {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ModelArguments>();
   CLI::App* command = app.add_subcommand("model", "Object model from recordings, one session each");
   command->add_option("object_id", arguments->object_id, "Name of the object in the database (letters, digits, _ . -)")
       ->required();

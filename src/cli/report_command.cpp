@@ -8,12 +8,12 @@ namespace object_modelling::cli
 {
 namespace
 {
-struct Arguments
+struct ReportArguments
 {
   std::string object_id, database;
 };
 
-CommandOutput run(const Arguments& arguments, base::JobControl& control)
+CommandOutput run(const ReportArguments& arguments, base::JobControl& control)
 {
   database::ObjectDatabase database(arguments.database, false);
   control.report("report", 0, 1);
@@ -27,7 +27,7 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
 
 void addReportCommand(CLI::App& app, Command* chosen)
 {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ReportArguments>();
   CLI::App* command = app.add_subcommand("report", "Make the report.html of an object in a database anew");
   command->add_option("object_id", arguments->object_id, "Name of the object in the database")->required();
   command->add_option("--database", arguments->database, "Folder of the object database")->required();

@@ -12,7 +12,7 @@ namespace object_modelling::cli
 {
 namespace
 {
-struct Arguments
+struct TrackArguments
 {
   std::string recording;
   std::string trajectory;
@@ -20,7 +20,7 @@ struct Arguments
   RecordArguments record;
 };
 
-CommandOutput run(const Arguments& arguments, base::JobControl& control)
+CommandOutput run(const TrackArguments& arguments, base::JobControl& control)
 {
   const std::unique_ptr<source::FrameSource> source = ros_bridge::openRecording(arguments.recording);
   pipeline::RecordOptions options = recordOptions(arguments.record);
@@ -64,7 +64,7 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
 
 void addTrackCommand(CLI::App& app, Command* chosen)
 {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<TrackArguments>();
   CLI::App* command = app.add_subcommand("track", "Camera trajectory of a recording");
   command
       ->add_option("recording", arguments->recording, "TUM-style folder (rgb.txt, depth.txt, camera.yaml) or ROS bag")

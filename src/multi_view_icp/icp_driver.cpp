@@ -16,7 +16,7 @@ constexpr double STEP_OF_GATE = 0.05;         // smaller steps than this share o
 constexpr double CONVERGED_STEP_M = 2e-5;     // of points at the usual distance
 constexpr double STABLE_RATIO = 0.003;        // change of the error, over ...
 constexpr std::size_t STABLE_ITERATIONS = 4;  // ... as many: what still moves is held by next to nothing
-constexpr double LEVER_M = 0.7;               // usual distance from camera to surface
+constexpr double SIGHT_LEVER_M = 0.7;         // usual distance from camera to surface
 constexpr double MIN_FITTING_RATIO = 0.35;    // of the points in view; fewer, and the view does not fit
 constexpr int MAX_TRIALS = 6;                 // of the damping
 
@@ -43,7 +43,7 @@ std::vector<IcpStage> stagesOf(const MultiViewIcpOptions& options)
 /// How far a motion of a camera, on the left of its pose, moves what it sees.
 double displacement_m(const geometry::Vector6d& motion, const Eigen::Isometry3d& T_world_camera)
 {
-  const Eigen::Vector3d seen = T_world_camera * Eigen::Vector3d(0, 0, LEVER_M);
+  const Eigen::Vector3d seen = T_world_camera * Eigen::Vector3d(0, 0, SIGHT_LEVER_M);
   return (geometry::isometryFromVector(motion) * seen - seen).norm() + 0.1 * motion.tail<3>().norm();
 }
 

@@ -10,7 +10,7 @@ namespace object_modelling::registration
 {
 namespace
 {
-constexpr float MIN_DEPTH_M = 0.05F;
+constexpr float NEAR_PLANE_M = 0.05F;
 constexpr float MAX_DEPTH_STEP_RATIO = 0.05F;     // of depth: further off is another surface
 constexpr float MIN_INTENSITY_SCALE = 3;          // grey levels: sensor noise and interpolation
 constexpr float SYSTEMATIC_DEPTH_RATIO = 0.001F;  // of depth: calibration, which averaging does not remove
@@ -121,7 +121,7 @@ void observe(const DensePoints& points, const DenseLevel& level, const Eigen::Is
   for (const DensePoint& point : points.all)
   {
     const Eigen::Vector3f q = R * point.p + t;
-    if (q.z() < MIN_DEPTH_M)
+    if (q.z() < NEAR_PLANE_M)
       continue;
     const float inverse_z = 1 / q.z();
     const float u = level.fx * q.x() * inverse_z + level.cx;

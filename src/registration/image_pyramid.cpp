@@ -9,7 +9,7 @@ namespace object_modelling::registration
 {
 namespace
 {
-constexpr int MAX_LEVEL = 4;
+constexpr int FLOW_LEVELS = 4;
 const cv::Size WINDOW(15, 15);
 constexpr double MIN_EIGENVALUE = 1e-4;
 constexpr float BORDER_PX = 8;
@@ -17,7 +17,7 @@ constexpr float BORDER_PX = 8;
 
 ImagePyramid::ImagePyramid(const cv::Mat& gray)
 {
-  const int built = cv::buildOpticalFlowPyramid(gray, levels_, WINDOW, MAX_LEVEL, false);
+  const int built = cv::buildOpticalFlowPyramid(gray, levels_, WINDOW, FLOW_LEVELS, false);
   levels_.resize(static_cast<std::size_t>(built) + 1);
 }
 
@@ -55,7 +55,7 @@ std::vector<FlowFeature> trackFlow(const ImagePyramid& last, const ImagePyramid&
   }
   std::vector<unsigned char> found;
   std::vector<float> errors;
-  cv::calcOpticalFlowPyrLK(last.levels(), current.levels(), from, to, found, errors, WINDOW, MAX_LEVEL,
+  cv::calcOpticalFlowPyrLK(last.levels(), current.levels(), from, to, found, errors, WINDOW, FLOW_LEVELS,
                            cv::TermCriteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 15, 0.03),
                            cv::OPTFLOW_USE_INITIAL_FLOW, MIN_EIGENVALUE);
   const cv::Size size = current.levels()[0].size();

@@ -13,12 +13,12 @@ namespace object_modelling::registration
 namespace
 {
 constexpr double SURROUNDINGS_M = 0.02;  // over which brightness is compared: light changes more slowly
-constexpr float SAME_SIDE_COSINE = 0.8F;
+constexpr float LIT_ALIKE_COSINE = 0.8F;
 constexpr float DARK_LEVEL = 12, HUE_DARK_LEVEL = 20;  // grey levels below which brightness and hue are noise
 constexpr float MAX_CONTRAST = 1.2F;                   // of logarithms
 constexpr float HALF_HUE = 0.15F;                      // length of opponent colours that is compressed to one half
 
-constexpr std::size_t MIN_POINTS = 30;
+constexpr std::size_t MIN_VALUES = 30;
 constexpr double DAMPING = 0.02;      // of the harmonics but the constant: one face must not explain its own texture
 constexpr double MIN_SCATTER = 0.03;  // of logarithms of brightness, robust deviation
 constexpr int REWEIGHTINGS = 6;
@@ -44,7 +44,7 @@ Eigen::Vector2f opponentColors(const Eigen::Vector3f& rgb)
 std::vector<float> shadingOf(const std::vector<float>& values, const std::vector<Eigen::Vector3f>& normals)
 {
   std::vector<float> shading(values.size(), 0);
-  if (values.size() < MIN_POINTS)
+  if (values.size() < MIN_VALUES)
     return shading;
   std::vector<double> weights(values.size(), 1), left(values.size());
   Eigen::Matrix<double, 9, 9> damping = Eigen::Matrix<double, 9, 9>::Identity();
@@ -91,7 +91,7 @@ std::vector<Eigen::Vector3f> invariantColors(const std::vector<Eigen::Vector3f>&
   {
     float sum = 0, count = 0;
     for (const std::uint32_t near : tree.within(points[i], SURROUNDINGS_M))
-      if (normals[near].dot(normals[i]) > SAME_SIDE_COSINE)
+      if (normals[near].dot(normals[i]) > LIT_ALIKE_COSINE)
       {
         sum += brightness[near];
         count += 1;

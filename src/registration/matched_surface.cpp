@@ -18,7 +18,7 @@ constexpr double COARSE_CELL_RATIO = 0.04;
 constexpr double FINE_REACH_SPACINGS = 3, FINE_CELL_SPACINGS = 0.6;
 constexpr double BLUR_SPACINGS = 3, SHARP_SPACINGS = 1.2, SLOPE_SPACINGS = 2;
 constexpr std::size_t FEW = 250, MANY = 2500;
-constexpr float SAME_SIDE_COSINE = 0.7F;
+constexpr float NEIGHBOR_COSINE = 0.7F;
 
 std::vector<int> evenly(std::size_t all, std::size_t wanted)
 {
@@ -40,7 +40,7 @@ std::vector<Eigen::Vector3f> smoothed(const PartialModel& model, const geometry:
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     float count = 0;
     for (const std::uint32_t near : tree.within(model.points[i], radius_m))
-      if (model.normals[near].dot(model.normals[i]) > SAME_SIDE_COSINE)
+      if (model.normals[near].dot(model.normals[i]) > NEIGHBOR_COSINE)
       {
         sum += model.colors[near];
         count += 1;
@@ -60,7 +60,7 @@ double roughnessOf(const PartialModel& model, const geometry::PointIndex& tree, 
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     float count = 0;
     for (const std::uint32_t near : tree.within(model.points[i], radius_m))
-      if (model.normals[near].dot(model.normals[i]) > SAME_SIDE_COSINE)
+      if (model.normals[near].dot(model.normals[i]) > NEIGHBOR_COSINE)
       {
         sum += model.points[near];
         count += 1;
@@ -86,7 +86,7 @@ std::vector<ColorGradient> slopes(const PartialModel& model, const geometry::Poi
     const Eigen::Vector3f& n = model.normals[i];
     for (const std::uint32_t near : tree.within(model.points[i], radius_m))
     {
-      if (model.normals[near].dot(n) <= SAME_SIDE_COSINE)
+      if (model.normals[near].dot(n) <= NEIGHBOR_COSINE)
         continue;
       Eigen::Vector3f d = model.points[near] - model.points[i];
       d -= n * n.dot(d);

@@ -11,7 +11,7 @@ namespace object_modelling::registration
 {
 namespace
 {
-constexpr float SAME_SIDE_COSINE = 0.7F;
+constexpr float MIN_SURFACE_COSINE = 0.7F;
 constexpr double SAME_SURFACE_SPACINGS = 1.7;
 constexpr float MAX_FEATURE_DISTANCE_M = 0.004F, MAX_FEATURE_RATIO = 0.08F;  // of the radius
 constexpr float SPACE_SIGMAS = 3;
@@ -78,7 +78,7 @@ SurfaceComparison compareSurfaces(const MatchedSurface& fixed, const MatchedSurf
     const Eigen::Vector3f off = q - fixed.model.points[j];
     const float distance_m = n.dot(off);
     if (off.norm() > 1.5F * reach_m || std::abs(distance_m) > reach_m ||
-        n.dot(R * moving.model.normals[i]) < SAME_SIDE_COSINE)
+        n.dot(R * moving.model.normals[i]) < MIN_SURFACE_COSINE)
       continue;
     comparison.same += 1;
     comparison.squares += distance_m * distance_m;
@@ -137,7 +137,7 @@ double coarseOverlap(const MatchedSurface& a, const MatchedSurface& b, const Eig
     const int j = a.coarse.nearest(q);
     same += j >= 0 && (q - a.model.points[j]).norm() < 2 * reach_m &&
             std::abs(a.model.normals[j].dot(q - a.model.points[j])) < reach_m &&
-            a.model.normals[j].dot(T_a_b.linear() * b.model.normals[i]) > SAME_SIDE_COSINE;
+            a.model.normals[j].dot(T_a_b.linear() * b.model.normals[i]) > MIN_SURFACE_COSINE;
   }
   return b.coarse_samples.empty() ? 0 : static_cast<double>(same) / static_cast<double>(b.coarse_samples.size());
 }

@@ -9,12 +9,12 @@ namespace object_modelling::registration
 {
 namespace
 {
-constexpr int MAX_LEVEL = 4;  // as the tracker's pyramids
+constexpr int PYRAMID_LEVELS = 4;  // as the tracker's pyramids
 
 std::vector<cv::Mat> grayLevels(const cv::Mat& gray)
 {
   std::vector<cv::Mat> levels;
-  cv::buildPyramid(gray, levels, MAX_LEVEL);
+  cv::buildPyramid(gray, levels, PYRAMID_LEVELS);
   return levels;
 }
 }  // namespace

@@ -9,13 +9,11 @@ namespace object_modelling::rgbd
 {
 namespace
 {
-constexpr double RIGHT_ANGLE_RAD = M_PI / 2;
-
 double angleWeight(double theta_rad, double theta_max_rad)
 {
-  if (!(theta_rad < RIGHT_ANGLE_RAD))
+  if (!(theta_rad < M_PI_2))
     return 0;
-  return theta_rad <= theta_max_rad ? 1 : 1 - (theta_rad - theta_max_rad) / (RIGHT_ANGLE_RAD - theta_max_rad);
+  return theta_rad <= theta_max_rad ? 1 : 1 - (theta_rad - theta_max_rad) / (M_PI_2 - theta_max_rad);
 }
 
 double edgeWeight(double edge_distance_m, const ObservationWeightOptions& options)
@@ -82,7 +80,7 @@ cv::Mat nguyenWeights(const Frame& frame, const cv::Mat& normals)
 std::vector<std::string> ObservationWeightOptions::violations() const
 {
   base::OptionsCheck check("observation_weight");
-  check.inRange("theta_max_rad", theta_max_rad, 0.0, RIGHT_ANGLE_RAD - 1e-6);
+  check.inRange("theta_max_rad", theta_max_rad, 0.0, M_PI_2 - 1e-6);
   check.inRange("sigma_lateral_m", sigma_lateral_m, 1e-6, 1.0);
   return check.violations();
 }

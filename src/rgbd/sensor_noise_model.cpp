@@ -11,27 +11,24 @@ namespace object_modelling::rgbd
 {
 namespace
 {
-constexpr double RIGHT_ANGLE_RAD = M_PI / 2;
 constexpr double UNBOUNDED = std::numeric_limits<double>::infinity();
 }  // namespace
 
 double SensorNoiseModel::axialSigma_m(double z_m, double theta_rad) const
 {
-  if (theta_rad >= RIGHT_ANGLE_RAD)
+  if (theta_rad >= M_PI_2)
     return UNBOUNDED;
   const double beyond_m = z_m - axial_vertex_m;
   const double sigma = axial_constant_m + axial_quadratic_per_m * beyond_m * beyond_m;
   if (theta_rad <= axial_grazing_from_rad)
     return sigma;
-  const double rest = RIGHT_ANGLE_RAD - theta_rad;
+  const double rest = M_PI_2 - theta_rad;
   return sigma + axial_grazing_m_sqrt_m / std::sqrt(z_m) * theta_rad * theta_rad / (rest * rest);
 }
 
 double SensorNoiseModel::lateralSigma_px(double theta_rad) const
 {
-  return theta_rad < RIGHT_ANGLE_RAD
-             ? lateral_constant_px + lateral_grazing_px * theta_rad / (RIGHT_ANGLE_RAD - theta_rad)
-             : UNBOUNDED;
+  return theta_rad < M_PI_2 ? lateral_constant_px + lateral_grazing_px * theta_rad / (M_PI_2 - theta_rad) : UNBOUNDED;
 }
 
 double SensorNoiseModel::lateralSigma_m(double z_m, double theta_rad, double focal_px) const

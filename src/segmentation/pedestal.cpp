@@ -12,9 +12,9 @@ namespace object_modelling::segmentation
 {
 namespace
 {
-constexpr double THINNED_WIDTH_PX = 213;
-constexpr float GATE_M = 0.004F;  // distortion, on top of the noise
-constexpr float STEP_M = 0.003F;  // below that gate: lower than the plane for certain
+constexpr double SAMPLED_WIDTH_PX = 213;
+constexpr float PEDESTAL_GATE_M = 0.004F;  // distortion, on top of the noise
+constexpr float STEP_M = 0.003F;           // below that gate: lower than the plane for certain
 
 /// Which thinned pixels lie in the plane and which below it; neither: above, or without depth.
 struct Heights
@@ -26,7 +26,7 @@ struct Heights
 Heights heightsAt(const rgbd::Frame& frame, const geometry::Plane& plane_camera, double noise_scale)
 {
   Heights heights;
-  heights.step = std::max(1, static_cast<int>(std::lround(frame.depth_m.cols / THINNED_WIDTH_PX)));
+  heights.step = std::max(1, static_cast<int>(std::lround(frame.depth_m.cols / SAMPLED_WIDTH_PX)));
   const int step = heights.step;
   const cv::Size size((frame.depth_m.cols + step - 1) / step, (frame.depth_m.rows + step - 1) / step);
   heights.level = cv::Mat::zeros(size, CV_8UC1);
@@ -42,7 +42,7 @@ Heights heightsAt(const rgbd::Frame& frame, const geometry::Plane& plane_camera,
       if (!std::isfinite(p.z()))
         continue;
       const float height_m = n.dot(p) + offset_m;
-      const float gate_m = GATE_M + sigmas * noise->sigmaAlong_m(n, p);
+      const float gate_m = PEDESTAL_GATE_M + sigmas * noise->sigmaAlong_m(n, p);
       if (std::abs(height_m) <= gate_m)
         heights.level.at<std::uint8_t>(v, u) = 255;
       else if (height_m < -gate_m - STEP_M)

@@ -14,8 +14,8 @@ namespace object_modelling::segmentation
 namespace
 {
 constexpr int MIN_POINTS = 150;
-constexpr double GATE_M = 0.004;         // distortion and pose error, on top of the noise
-constexpr double MAX_TILT_COS = 0.9986;  // 3 deg
+constexpr double SUPPORT_GATE_M = 0.004;  // distortion and pose error, on top of the noise
+constexpr double MAX_TILT_COS = 0.9986;   // 3 deg
 
 /// Heights of the masked points, sorted.
 std::vector<double> heightsOf(const rgbd::Frame& frame, const cv::Mat& mask, const cv::Rect& rect,
@@ -47,7 +47,7 @@ std::optional<LocalSupport> refineSupport(const rgbd::Frame& frame, const geomet
   constexpr int STRIDE = 2;
   const std::shared_ptr<const NoiseTable> noise = NoiseTable::of(frame.noise_model);
   LocalSupport support{ known_camera, {}, 1 };
-  for (const double gate_m : { GATE_M, GATE_M / 2 })
+  for (const double gate_m : { SUPPORT_GATE_M, SUPPORT_GATE_M / 2 })
   {
     PlaneMoments moments;
     const auto n = support.plane_camera.normal.cast<float>().eval();

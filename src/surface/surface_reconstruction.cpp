@@ -17,7 +17,7 @@ namespace object_modelling::surface
 namespace
 {
 constexpr std::size_t MIN_POINTS = 50;
-constexpr std::size_t NEIGHBOURS = 24;
+constexpr std::size_t VOTING_NEIGHBORS = 24;
 constexpr std::size_t COLOR_NEIGHBOURS = 4;
 /// Surface this near to a fused point is seen even at the rim of the cloud; in units of the resolution.
 constexpr float RIM_RATIO = 1.f;
@@ -56,7 +56,7 @@ bool supported(const Eigen::Vector3f& vertex, const Eigen::Vector3f& normal, con
                const geometry::PointIndex& index, const SurfaceOptions& options)
 {
   std::vector<geometry::PointIndex::Neighbour> neighbours;
-  index.nearest(vertex, NEIGHBOURS, &neighbours);
+  index.nearest(vertex, VOTING_NEIGHBORS, &neighbours);
   const double near_m = RIM_RATIO * options.resolution_m;
   std::vector<Eigen::Vector3f> around;
   for (const geometry::PointIndex::Neighbour& neighbour : neighbours)

@@ -7,7 +7,7 @@ namespace object_modelling::surface
 {
 namespace
 {
-constexpr std::size_t NEIGHBOURS = 32;
+constexpr std::size_t WALL_NEIGHBORS = 32;
 constexpr std::size_t BACK_NEIGHBOURS = 8;
 constexpr float OPPOSITE_COSINE = -0.5f;  ///< between the normals of the two sides
 constexpr float SAME_SIDE_COSINE = 0.3f;
@@ -46,7 +46,7 @@ std::vector<float> spreadOfWalls_m(const std::vector<Eigen::Vector3f>& points,
 #pragma omp parallel for schedule(static)
   for (std::int64_t i = 0; i < count; ++i)
   {
-    index.nearest(points[i], NEIGHBOURS, &neighbours[i]);
+    index.nearest(points[i], WALL_NEIGHBORS, &neighbours[i]);
     spread_m[i] = 0.5f * (min_thickness_m - thickness_m(i, points, normals, neighbours[i], min_thickness_m));
   }
   std::vector<float> smooth_m(points.size());

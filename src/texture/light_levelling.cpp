@@ -17,11 +17,11 @@ namespace object_modelling::texture
 {
 namespace
 {
-constexpr double SMOOTH_M = 0.003;      // finer differences are texture, out of register, and noise
-constexpr double EDGE_SOFTNESS = 0.05;  // 1 - cos between normals over which the light may change freely
-constexpr double LEAST_TIE = 0.01;      // across an edge
-constexpr double PULL_TO_ONE = 1e-4;    // what nothing else determines
-constexpr double LOG_SIGMA = 0.3;       // differences that stay beyond are highlights or edges of texture
+constexpr double SMOOTH_M = 0.003;       // finer differences are texture, out of register, and noise
+constexpr double EDGE_SOFTNESS = 0.05;   // 1 - cos between normals over which the light may change freely
+constexpr double LEAST_TIE = 0.01;       // across an edge
+constexpr double PULL_TO_ONE = 1e-4;     // what nothing else determines
+constexpr double LIGHT_LOG_SIGMA = 0.3;  // differences that stay beyond are highlights or edges of texture
 constexpr double PATCH_M = 0.005;
 constexpr int ROUNDS = 3;
 constexpr int MAX_ITERATIONS = 400;
@@ -212,7 +212,7 @@ void reweight(const Eigen::MatrixXd& log_gains, LitColors* colors)
     const double variance = (squares / count - (sum / count).cwiseAbs2()).maxCoeff();
     for (std::size_t light = 0; light < lights; ++light)
       if (colors->weight[light][i] > 0)
-        colors->weight[light][i] = static_cast<float>(1 / (1 + variance / (LOG_SIGMA * LOG_SIGMA)));
+        colors->weight[light][i] = static_cast<float>(1 / (1 + variance / (LIGHT_LOG_SIGMA * LIGHT_LOG_SIGMA)));
   }
 }
 }  // namespace

@@ -18,7 +18,7 @@ namespace
 constexpr float BORDER_COST = 0.25f;  ///< per edge between directions, in cosines
 constexpr int SMOOTHING_PASSES = 10;
 constexpr int NORMAL_SMOOTHING_PASSES = 6;  ///< for the choice of directions, so that borders are not ragged
-constexpr float MIN_COSINE = 0.35f;         ///< to the direction a triangle is projected along
+constexpr float MIN_CHART_COSINE = 0.35f;   ///< to the direction a triangle is projected along
 constexpr std::size_t SMALL_CHART = 100;    ///< triangles; smaller ones join a neighbour that they lie flat with
 constexpr int MERGING_PASSES = 4;
 
@@ -85,7 +85,7 @@ Labels labelDirections(const std::vector<Eigen::Vector3f>& normals, const mesh::
       int label = 0;
       for (int d = 0; d < static_cast<int>(DIRECTIONS.size()); ++d)
       {
-        const bool flat = normals[t].dot(DIRECTIONS[d]) >= MIN_COSINE;
+        const bool flat = normals[t].dot(DIRECTIONS[d]) >= MIN_CHART_COSINE;
         float cost = -smooth[t].dot(DIRECTIONS[d]) + (flat ? 0.f : 2.f);
         for (const int neighbour : neighbours[t])
           if (pass > 0 && neighbour >= 0 && labels[neighbour] != d)
@@ -118,8 +118,8 @@ void mergeSmallGroups(const std::vector<Eigen::Vector3f>& normals, const mesh::T
       int best = -1;
       for (int d = 0; d < static_cast<int>(DIRECTIONS.size()); ++d)
       {
-        const bool flat =
-            std::all_of(group.begin(), group.end(), [&](int t) { return normals[t].dot(DIRECTIONS[d]) >= MIN_COSINE; });
+        const bool flat = std::all_of(group.begin(), group.end(),
+                                      [&](int t) { return normals[t].dot(DIRECTIONS[d]) >= MIN_CHART_COSINE; });
         if (flat && shared_edges[d] > 0 && (best < 0 || shared_edges[d] > shared_edges[best]))
           best = d;
       }
@@ -197,7 +197,7 @@ Chart layOut(const mesh::TriangleMesh& mesh, const std::vector<Eigen::Vector3f>&
       on_raster[k] = corners[i][k] * scale;
     }
     const bool alone = group.size() == 1;
-    bool fits = alone || normals[group[i]].dot(flattening.normal()) >= 0.5f * MIN_COSINE;
+    bool fits = alone || normals[group[i]].dot(flattening.normal()) >= 0.5f * MIN_CHART_COSINE;
     if (fits && !alone)
       mesh::forEachPixelInside(on_raster, mesh::ON_EDGE_SHARE, taken.size(),
                                [&](int u, int v, const Eigen::Vector3f&)

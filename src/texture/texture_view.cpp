@@ -15,9 +15,9 @@ namespace object_modelling::texture
 {
 namespace
 {
-constexpr int OCCLUSION_MARGIN_PX = 2;  ///< colour this near to something in front is mixed with its
-constexpr float MIN_COSINE = 0.2f;      ///< flatter sights smear
-constexpr float MIN_RIM_PX = 2.5f;      ///< colour nearer to the rim is mixed with the background
+constexpr int OCCLUSION_MARGIN_PX = 2;    ///< colour this near to something in front is mixed with its
+constexpr float MIN_SIGHT_COSINE = 0.2f;  ///< flatter sights smear
+constexpr float MIN_RIM_PX = 2.5f;        ///< colour nearer to the rim is mixed with the background
 constexpr float FULL_RIM_PX = 7.f;
 constexpr float SURFACE_TOLERANCE_M = 0.0015f;  ///< of the mesh against itself
 constexpr float DEPTH_TOLERANCE_M = 0.004f;     ///< of the mesh against measured depth, besides 3 sigmas
@@ -103,7 +103,7 @@ Sighting sight(const TextureView& view, const Eigen::Vector3f& p_mesh, const Eig
   Sighting result;
   const Eigen::Vector3f to_camera = view.p_mesh_camera - p_mesh;
   const float cosine = n_mesh.dot(to_camera) / to_camera.norm();
-  if (!(cosine > MIN_COSINE))
+  if (!(cosine > MIN_SIGHT_COSINE))
     return result;
   const geometry::PinholeCamera& camera = view.frame->camera;
   const Eigen::Vector3f p_camera = view.T_camera_mesh * p_mesh;
