@@ -25,7 +25,7 @@ base::Error refused(const std::string& what)
   return { base::StatusCode::INVALID_ARGUMENT, what };
 }
 
-std::string wholeMillimetres(double length_m)
+std::string wholeMillimeters(double length_m)
 {
   return std::to_string(std::lround(1000 * length_m)) + " mm";
 }
@@ -59,15 +59,15 @@ PairCandidate alignByPoints(const registration::PartialModel& a, const registrat
     throw refused("a point is not finite");
   const double width_m = std::min(widthOf(in_a), widthOf(in_b));
   if (width_m < MIN_WIDTH_M)
-    throw refused("the points lie on one line, or at one place (" + wholeMillimetres(width_m) +
+    throw refused("the points lie on one line, or at one place (" + wholeMillimeters(width_m) +
                   " wide): choose them apart, in a triangle");
   Eigen::Isometry3d clicked;
   if (!geometry::rigidTransformFromPoints(in_a, in_b, &clicked))
     throw refused("the points do not tell a pose: choose them apart, in a triangle");
   const double mismatch_m = (in_a - clicked * in_b).norm() / std::sqrt(static_cast<double>(pairs.size()));
   if (mismatch_m > MAX_MISMATCH_M)
-    throw refused("the points of the two sessions do not fit each other by " + wholeMillimetres(mismatch_m) +
-                  " (at most " + wholeMillimetres(MAX_MISMATCH_M) + "): point at the same spots, in the same order");
+    throw refused("the points of the two sessions do not fit each other by " + wholeMillimeters(mismatch_m) +
+                  " (at most " + wholeMillimeters(MAX_MISMATCH_M) + "): point at the same spots, in the same order");
 
   const registration::MatchedSurface part_a(a, options.threads), part_b(b, options.threads);
   control.checkCancelled();
@@ -77,10 +77,10 @@ PairCandidate alignByPoints(const registration::PartialModel& a, const registrat
   Eigen::Isometry3f refined = registration::alignByIcp(part_a, part_b, clicked.cast<float>(), coarse);
   const registration::PartPair pair(part_a, part_b, options.threads);
   registration::PairQuality quality = registration::refinePairPose(pair, &refined);
-  const Eigen::Vector3d centre = b.centre().cast<double>();
-  const Eigen::Isometry3d T_a_b = geometry::normalised(refined.cast<double>());
+  const Eigen::Vector3d center = b.center().cast<double>();
+  const Eigen::Isometry3d T_a_b = geometry::normalized(refined.cast<double>());
   const bool near = geometry::rotationAngle_rad(clicked.inverse() * T_a_b) < MAX_TURN_RAD &&
-                    (clicked * centre - T_a_b * centre).norm() < MAX_MOVE_RATIO * part_a.radius_m;
+                    (clicked * center - T_a_b * center).norm() < MAX_MOVE_RATIO * part_a.radius_m;
   // Where ICP would slide along the surfaces, the pose by the points is kept.
   if (!near)
     quality = registration::measurePair(pair, clicked.cast<float>(), true);

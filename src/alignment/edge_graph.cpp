@@ -57,8 +57,8 @@ EdgeGraph::EdgeGraph(const std::vector<registration::PartialModel>& parts, doubl
   std::map<std::string, int> index_of;
   for (const registration::PartialModel& part : parts)
   {
-    index_of[part.session_id] = static_cast<int>(centres_.size());
-    centres_.emplace_back(part.centre().cast<double>());
+    index_of[part.session_id] = static_cast<int>(centers_.size());
+    centers_.emplace_back(part.center().cast<double>());
   }
   for (const AlignmentEdge& edge : edges)
   {
@@ -161,7 +161,7 @@ Eigen::Isometry3d EdgeGraph::along(int edge, std::size_t candidate, int to,
 PoseDifference EdgeGraph::between(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other, int session) const
 {
   return { geometry::rotationAngle_rad(one.inverse() * other),
-           (one * centres_[session] - other * centres_[session]).norm() };
+           (one * centers_[session] - other * centers_[session]).norm() };
 }
 
 std::optional<std::size_t> EdgeGraph::agreeing(int edge, int to, const Eigen::Isometry3d& T_reference_to,

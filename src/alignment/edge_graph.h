@@ -40,7 +40,7 @@ public:
   EdgeGraph(const std::vector<registration::PartialModel>& parts, double min_probability,
             const std::vector<AlignmentEdge>& edges);
 
-  int sessions() const { return static_cast<int>(centres_.size()); }
+  int sessions() const { return static_cast<int>(centers_.size()); }
   int edges() const { return static_cast<int>(edges_.size()); }
   const std::pair<int, int>& ends(int edge) const { return ends_[edge]; }
   int otherEnd(int edge, int session) const;
@@ -91,7 +91,7 @@ private:
 
   const std::vector<AlignmentEdge>& edges_;
   double refused_probability_;
-  std::vector<Eigen::Vector3d> centres_;
+  std::vector<Eigen::Vector3d> centers_;
   std::vector<bool> doubtful_;  // by edge: either session is
   std::vector<std::pair<int, int>> ends_;
   std::vector<std::vector<double>> own_;  ///< by edge and candidate

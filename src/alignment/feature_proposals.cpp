@@ -83,7 +83,7 @@ std::vector<Proposal> proposeByFeatures(const registration::PartPair& pair, std:
                                    {
                                      const Eigen::Isometry3f off = other.T_a_b.inverse() * scored.T_a_b;
                                      return Eigen::AngleAxisf(off.linear()).angle() < 0.1F &&
-                                            (off * b.centre - b.centre).norm() < 0.01F;
+                                            (off * b.center - b.center).norm() < 0.01F;
                                    });
     if (!known)
       proposals.push_back({ ProposalKind::FEATURES, scored.T_a_b });

@@ -43,7 +43,7 @@ bool same(const Eigen::Isometry3f& x, const Eigen::Isometry3f& y, const registra
   const Eigen::Isometry3f off = x.inverse() * y;
   // cos(angle) from the trace
   return (off.linear().trace() - 1) / 2 > std::cos(rotation_rad) &&
-         (off * b.centre - b.centre).norm() < ratio * b.radius_m;
+         (off * b.center - b.center).norm() < ratio * b.radius_m;
 }
 
 /// The best of each group of nearly equal poses, best first.

@@ -45,7 +45,7 @@ std::string percentBelow(double ratio)
   return percent(std::floor(100 * ratio) / 100);
 }
 
-std::string millimetres(double length_m)
+std::string millimeters(double length_m)
 {
   std::ostringstream out;
   out.precision(1);
@@ -78,10 +78,10 @@ std::string whyUnlikely(const registration::PairQuality& quality, const PairAlig
   if (worst == color)
     return "colours disagree (correlation " + percent(quality.color_agreement) + " over the common surface)" + REMEDY;
   if (worst == of(Feature::CONTACT))
-    return "the object would be " + millimetres(quality.contact_gap_m) + " off what it stood on" + REMEDY;
+    return "the object would be " + millimeters(quality.contact_gap_m) + " off what it stood on" + REMEDY;
   if (worst == space)
     return percent(quality.fsv_ratio) + IN_EMPTY_SPACE;
-  return "surfaces are " + millimetres(quality.rmse_m) + " apart" + REMEDY;
+  return "surfaces are " + millimeters(quality.rmse_m) + " apart" + REMEDY;
 }
 
 /// Sets the probability of each candidate against all the others and none being right; returns that of any of them.

@@ -30,7 +30,7 @@ bool standsOn(const registration::MatchedSurface& part, const std::vector<Eigen:
   Eigen::Vector2f low = Eigen::Vector2f::Constant(1e9F), high = -low;
   for (const Eigen::Vector3f& vertex : hull)
   {
-    const Eigen::Vector3f off = vertex - part.centre;
+    const Eigen::Vector3f off = vertex - part.center;
     if (foot.distance_m - foot.normal.dot(off) > FACE_DEPTH_RATIO * part.radius_m)
       continue;
     const Eigen::Vector2f at(x.dot(off), y.dot(off));
@@ -58,7 +58,7 @@ std::vector<Foot> feetOf(const registration::MatchedSurface& part)
   {
     Foot foot{ n, 0 };
     for (const Eigen::Vector3f& vertex : hull.vertices)
-      foot.distance_m = std::max(foot.distance_m, n.dot(vertex - part.centre));
+      foot.distance_m = std::max(foot.distance_m, n.dot(vertex - part.center));
     if (standsOn(part, hull.vertices, foot))
       feet.push_back(foot);
   }
@@ -74,7 +74,7 @@ std::vector<Eigen::Isometry3f> placements(const registration::MatchedSurface& st
     return result;
   const Eigen::Vector3f up = standing.model.support_plane->normal.cast<float>();
   const auto height =
-      static_cast<float>(standing.model.support_plane->signedDistance_m(standing.centre.cast<double>()));
+      static_cast<float>(standing.model.support_plane->signedDistance_m(standing.center.cast<double>()));
   for (const Foot& foot : feetOf(moving))
   {
     const Eigen::Matrix3f upright = geometry::rotationBetween(foot.normal, Eigen::Vector3f(-up));
@@ -82,7 +82,7 @@ std::vector<Eigen::Isometry3f> placements(const registration::MatchedSurface& st
     {
       Eigen::Isometry3f T = Eigen::Isometry3f::Identity();
       T.linear() = Eigen::AngleAxisf(static_cast<float>(2 * M_PI * i / ROTATIONS), up).toRotationMatrix() * upright;
-      T.translation() = standing.centre + up * (foot.distance_m - height) - T.linear() * moving.centre;
+      T.translation() = standing.center + up * (foot.distance_m - height) - T.linear() * moving.center;
       result.push_back(T);
     }
   }

@@ -281,7 +281,7 @@ std::vector<SessionPlacement> placeByEdges(const std::vector<registration::Parti
   explain(graph, tree, placed, edges);
   std::vector<SessionPlacement> result;
   for (const auto& [session, pose] : placed)
-    result.push_back({ parts[session].session_id, geometry::normalised(pose.T_reference_session) });
+    result.push_back({ parts[session].session_id, geometry::normalized(pose.T_reference_session) });
   return result;
 }
 

@@ -39,7 +39,7 @@ std::vector<int> thinned(const std::vector<Eigen::Vector3f>& points, double spac
   return kept;
 }
 
-registration::SpaceView spaceOf(const rgbd::Keyframe& keyframe, const Eigen::Vector3f& centre)
+registration::SpaceView spaceOf(const rgbd::Keyframe& keyframe, const Eigen::Vector3f& center)
 {
   registration::SpaceView view;
   view.camera = keyframe.frame.camera;
@@ -47,7 +47,7 @@ registration::SpaceView spaceOf(const rgbd::Keyframe& keyframe, const Eigen::Vec
   cv::Mat known = keyframe.frame.depth_m.clone();
   known.setTo(0, known != known);  // NaN
   cv::erode(known, view.least_depth_m, cv::Mat());
-  view.axial_sigma_m = keyframe.frame.noise_model.axialSigma_m((view.T_camera_session * centre).z(), 0);
+  view.axial_sigma_m = keyframe.frame.noise_model.axialSigma_m((view.T_camera_session * center).z(), 0);
   return view;
 }
 
@@ -98,11 +98,11 @@ KnownViews knownViewsOf(const keyframes::Session& session, const std::vector<rgb
 
 /// Views that look from as different directions as there are: each next one is farthest from those chosen.
 std::vector<int> spreadViews(const std::vector<rgbd::Keyframe>& keyframes, const std::vector<int>& masked,
-                             const Eigen::Vector3f& centre, int count)
+                             const Eigen::Vector3f& center, int count)
 {
   std::vector<Eigen::Vector3d> directions;
   for (const int index : masked)
-    directions.push_back((keyframes[index].T_session_camera.translation() - centre.cast<double>()).normalized());
+    directions.push_back((keyframes[index].T_session_camera.translation() - center.cast<double>()).normalized());
   std::vector<double> nearest(masked.size(), -2);  // cosine to the nearest chosen one
   std::vector<int> chosen;
   std::size_t next = 0;
@@ -173,14 +173,14 @@ registration::PartialModel makePartialModel(const keyframes::Session& session,
     model.colors = registration::invariantColors(model.points, model.normals, model.colors_rgb);
   else
     model.colors.assign(kept.size(), Eigen::Vector3f::Zero());
-  const Eigen::Vector3f centre = model.centre();
-  const std::vector<int> chosen = spreadViews(keyframes, masked, centre, options.max_views);
+  const Eigen::Vector3f center = model.center();
+  const std::vector<int> chosen = spreadViews(keyframes, masked, center, options.max_views);
   model.views.resize(chosen.size());
   model.features.resize(chosen.size());
 #pragma omp parallel for schedule(dynamic)
   for (int i = 0; i < static_cast<int>(chosen.size()); ++i)
   {
-    model.views[i] = spaceOf(keyframes[chosen[i]], centre);
+    model.views[i] = spaceOf(keyframes[chosen[i]], center);
     if (options.use_color && options.max_features > 0)
       model.features[i] = featuresOf(keyframes[chosen[i]], options.max_features);
   }

@@ -18,7 +18,7 @@ std::vector<Proposal> proposeByShape(const registration::MatchedSurface& a, cons
                                outer * std::sin(beta));
     Eigen::Isometry3f& T = proposals[i].T_a_b;
     T.linear() = R.normalized().toRotationMatrix().cast<float>();
-    T.translation() = a.centre - T.linear() * b.centre;
+    T.translation() = a.center - T.linear() * b.center;
   }
   return proposals;
 }

@@ -81,7 +81,7 @@ struct Blocks
       cameras.emplace_back(keyframes[k].frame.camera, state.T_session_camera[k]);
   }
 
-  std::vector<LinearisedCamera> cameras;
+  std::vector<LinearizedCamera> cameras;
   std::vector<geometry::Vector6d> motions;
   std::vector<Eigen::Vector3d> landmarks;
   SensorBlocks sensor;
@@ -96,7 +96,7 @@ void addSights(const std::vector<rgbd::Keyframe>& keyframes, const BundleSolverO
   {
     double* motion = blocks->motions[sight.keyframe].data();
     double* landmark = blocks->landmarks[sight.landmark].data();
-    const LinearisedCamera* camera = &blocks->cameras[sight.keyframe];
+    const LinearizedCamera* camera = &blocks->cameras[sight.keyframe];
     problem->AddResidualBlock(new ReprojectionCost(camera, sight.pixel, sight.sigma_px), loss, motion, landmark,
                               blocks->sensor.color_offset_px.data(), blocks->sensor.intrinsics.data());
     if (sight.depth_m > 0)
@@ -164,7 +164,7 @@ BundleSolverSummary solveBundle(const std::vector<rgbd::Keyframe>& keyframes, in
   {
     if (blocks.seen[k] && static_cast<int>(k) != fixed_keyframe)
     {
-      state->T_session_camera[k] = geometry::normalised(
+      state->T_session_camera[k] = geometry::normalized(
           (geometry::isometryFromVector(blocks.motions[k]) * blocks.cameras[k].T_camera_session).inverse());
     }
   }

@@ -18,7 +18,7 @@ using OffsetJacobian = Eigen::Map<Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>;
 
 }  // namespace
 
-Eigen::Vector3d LinearisedCamera::transform(const double* xi, const double* p_session,
+Eigen::Vector3d LinearizedCamera::transform(const double* xi, const double* p_session,
                                             Eigen::Matrix<double, 3, 6>* by_motion, Eigen::Matrix3d* by_point) const
 {
   const Eigen::Map<const Eigen::Vector3d> t(xi), r(xi + 3), p(p_session);

@@ -16,13 +16,13 @@ namespace object_modelling::bundle_adjustment
 /// A keyframe's part of a residual. The optimised block of 6 is a motion xi = (t, r) on the left of this
 /// pose: T_camera_session(xi) = [R(r) | t] * T_camera_session. It starts at 0 and stays small, so that rotation vectors
 /// never come near their singularity and no manifold is needed (its Ceres interface changed with 2.1).
-struct LinearisedCamera
+struct LinearizedCamera
 {
   double fx = 0, fy = 0, cx = 0, cy = 0;  ///< px
   Eigen::Isometry3d T_camera_session = Eigen::Isometry3d::Identity();
 
-  LinearisedCamera() = default;
-  LinearisedCamera(const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_session_camera)
+  LinearizedCamera() = default;
+  LinearizedCamera(const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_session_camera)
       : fx(camera.fx), fy(camera.fy), cx(camera.cx), cy(camera.cy), T_camera_session(T_session_camera.inverse())
   {
   }
@@ -39,14 +39,14 @@ class ReprojectionCost : public ceres::SizedCostFunction<2, 6, 3, 2, 4>
 {
 public:
   /// `camera` must outlive the cost.
-  ReprojectionCost(const LinearisedCamera* camera, const Eigen::Vector2d& pixel, double sigma_px)
+  ReprojectionCost(const LinearizedCamera* camera, const Eigen::Vector2d& pixel, double sigma_px)
       : camera_(camera), pixel_(pixel), sigma_px_(sigma_px)
   {
   }
   bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override;
 
 private:
-  const LinearisedCamera* camera_;
+  const LinearizedCamera* camera_;
   Eigen::Vector2d pixel_;
   double sigma_px_;
 };
@@ -59,7 +59,7 @@ class DepthCost : public ceres::SizedCostFunction<2, 6, 3, 2, 1, 1>
 public:
   /// The depth was read at the landmark's pixel in the colour image. Where the images are offset that is beside it by
   /// the offset, and `slope_m_px` is the gradient of depth there, metres per pixel.
-  DepthCost(const LinearisedCamera* camera, double depth_m, const Eigen::Vector2d& slope_m_px, double sigma_m)
+  DepthCost(const LinearizedCamera* camera, double depth_m, const Eigen::Vector2d& slope_m_px, double sigma_m)
       : camera_(camera), depth_m_(depth_m), slope_m_px_(slope_m_px), sigma_m_(sigma_m)
   {
   }
@@ -68,7 +68,7 @@ public:
   double sigmasByDistortion() const { return depth_m_ / sigma_m_; }
 
 private:
-  const LinearisedCamera* camera_;
+  const LinearizedCamera* camera_;
   double depth_m_;
   Eigen::Vector2d slope_m_px_;
   double sigma_m_;
@@ -92,6 +92,6 @@ private:
 
 /// Relative pose of two cameras minus that of the link, in sigmas. Blocks: motion of a (6), motion of b (6), offset of
 /// the colour images (2, px). The caller owns the result.
-ceres::CostFunction* surfaceCost(const LinearisedCamera& a, const LinearisedCamera& b, const SurfaceLink& link);
+ceres::CostFunction* surfaceCost(const LinearizedCamera& a, const LinearizedCamera& b, const SurfaceLink& link);
 
 }  // namespace object_modelling::bundle_adjustment

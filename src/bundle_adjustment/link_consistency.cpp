@@ -30,14 +30,14 @@ public:
   {
     // Without any depth the scale is unknown; a surface at 1 m does for the relative weights.
     const double n = std::max(1, count_);
-    const Eigen::Vector3d centre = count_ > 0 ? Eigen::Vector3d(sum_ / n) : Eigen::Vector3d::UnitZ();
-    const double radius_m = std::sqrt(std::max(0.0, squared_ / n - centre.squaredNorm()));
+    const Eigen::Vector3d center = count_ > 0 ? Eigen::Vector3d(sum_ / n) : Eigen::Vector3d::UnitZ();
+    const double radius_m = std::sqrt(std::max(0.0, squared_ / n - center.squaredNorm()));
     PoseEdge result;
     result.a = a;
     result.b = b;
     result.T_a_b = T_a_b;
-    result.points_b = patchCorners(centre, std::max(radius_m, 0.05 * centre.norm()));
-    result.sigma_m = DRIFT_RATIO * centre.norm();
+    result.points_b = patchCorners(center, std::max(radius_m, 0.05 * center.norm()));
+    result.sigma_m = DRIFT_RATIO * center.norm();
     return result;
   }
 

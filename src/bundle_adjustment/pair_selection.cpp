@@ -51,7 +51,7 @@ double predictedOverlap(const rgbd::Frame& a, const rgbd::Frame& b, const Eigen:
   if (a.depth_m.empty() || b.depth_m.empty() ||
       (options.object_only && (a.object_mask.empty() || b.object_mask.empty())))
     return 0;
-  const Eigen::Vector3d centre_a_in_b = T_b_a.translation();
+  const Eigen::Vector3d center_a_in_b = T_b_a.translation();
   const double min_cosine = std::cos(options.max_view_angle_rad);
   const int step = options.object_only ? SAMPLE_STEP_PX / 3 : SAMPLE_STEP_PX;
   int count = 0;
@@ -67,7 +67,7 @@ double predictedOverlap(const rgbd::Frame& a, const rgbd::Frame& b, const Eigen:
       if (!(p_b.z() > 0.05))
         continue;
       const Eigen::Vector2d pixel = camera_b.project(p_b);
-      const double cosine = p_b.normalized().dot((p_b - centre_a_in_b).normalized());
+      const double cosine = p_b.normalized().dot((p_b - center_a_in_b).normalized());
       if (!camera_b.contains(pixel, -RIM_RATIO * camera_b.width) || cosine < min_cosine)
         continue;
       if (camera_b.contains(pixel))

@@ -81,7 +81,7 @@ void eliminate(const std::vector<SightEquations>& sights, Eigen::MatrixXd* reduc
 std::vector<geometry::Matrix6d> poseCovariances(const std::vector<rgbd::Keyframe>& keyframes, int fixed_keyframe,
                                                 double loss_width_sigmas, const BundleState& state)
 {
-  std::vector<LinearisedCamera> cameras;
+  std::vector<LinearizedCamera> cameras;
   cameras.reserve(keyframes.size());
   for (std::size_t k = 0; k < keyframes.size(); ++k)
     cameras.emplace_back(keyframes[k].frame.camera, state.T_session_camera[k]);

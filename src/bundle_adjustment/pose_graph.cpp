@@ -48,11 +48,11 @@ private:
 
 }  // namespace
 
-std::array<Eigen::Vector3d, 4> patchCorners(const Eigen::Vector3d& centre, double radius_m)
+std::array<Eigen::Vector3d, 4> patchCorners(const Eigen::Vector3d& center, double radius_m)
 {
   const double s = radius_m / std::sqrt(3.0);
-  return { centre + Eigen::Vector3d(s, s, s), centre + Eigen::Vector3d(s, -s, -s), centre + Eigen::Vector3d(-s, s, -s),
-           centre + Eigen::Vector3d(-s, -s, s) };
+  return { center + Eigen::Vector3d(s, s, s), center + Eigen::Vector3d(s, -s, -s), center + Eigen::Vector3d(-s, s, -s),
+           center + Eigen::Vector3d(-s, -s, s) };
 }
 
 double edgeError_m(const PoseEdge& edge, const std::vector<Eigen::Isometry3d>& T_session_camera)
@@ -92,7 +92,7 @@ void relaxPoseGraph(const std::vector<PoseEdge>& edges, int fixed, std::vector<E
     {
       const Eigen::Isometry3d T_camera_session =
           geometry::isometryFromVector(motions[k]) * (*T_session_camera)[k].inverse();
-      (*T_session_camera)[k] = geometry::normalised(T_camera_session.inverse());
+      (*T_session_camera)[k] = geometry::normalized(T_camera_session.inverse());
     }
   }
 }

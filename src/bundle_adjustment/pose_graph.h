@@ -18,7 +18,7 @@ struct PoseEdge
 };
 
 /// Points of a surface patch of the given centre and radius: four corners of a tetrahedron.
-std::array<Eigen::Vector3d, 4> patchCorners(const Eigen::Vector3d& centre, double radius_m);
+std::array<Eigen::Vector3d, 4> patchCorners(const Eigen::Vector3d& center, double radius_m);
 
 /// RMS displacement of the edge's points between its T_a_b and the poses.
 double edgeError_m(const PoseEdge& edge, const std::vector<Eigen::Isometry3d>& T_session_camera);

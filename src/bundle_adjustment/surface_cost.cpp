@@ -62,7 +62,7 @@ private:
 };
 }  // namespace
 
-ceres::CostFunction* surfaceCost(const LinearisedCamera& a, const LinearisedCamera& b, const SurfaceLink& link)
+ceres::CostFunction* surfaceCost(const LinearizedCamera& a, const LinearizedCamera& b, const SurfaceLink& link)
 {
   return new ceres::AutoDiffCostFunction<SurfaceCost, 6, 6, 6, 2>(
       new SurfaceCost(a.T_camera_session * b.T_camera_session.inverse(), link));

@@ -80,7 +80,7 @@ std::optional<SurfaceLink> linkPair(const std::vector<registration::SurfaceView>
   SurfaceLink link;
   link.a = a;
   link.b = b;
-  link.T_a_b = geometry::normalised(geometry::isometryFromVector(half) * forwards->T_a_b);
+  link.T_a_b = geometry::normalized(geometry::isometryFromVector(half) * forwards->T_a_b);
   link.information = forwards->information - gain * gain.transpose() / (1 + half.dot(gain));
   return link;
 }

@@ -16,7 +16,7 @@ struct AlignArguments
   std::string object_id, store;
   std::vector<std::string> session_ids;
   pipeline::AlignOptions options;
-  bool grey = false, anew = false;
+  bool gray = false, anew = false;
   std::vector<std::string> accept, refuse, forget;  ///< two sessions each, or none
   std::size_t candidate = 0;
 };
@@ -51,7 +51,7 @@ CommandOutput run(const AlignArguments& arguments, base::JobControl& control)
                                                        arguments.object_id +
                                                        "': record one with this object id, or name --session");
   pipeline::AlignOptions options = arguments.options;
-  options.part.use_color = !arguments.grey;
+  options.part.use_color = !arguments.gray;
   options.use_known = !arguments.anew;
   decide(arguments, *store);
   alignment::AlignmentResult aligned = pipeline::alignStoredSessions(*store, ids, options, control);
@@ -75,7 +75,7 @@ void addAlignCommand(CLI::App& app, Command* chosen)
   command->add_option("object_id", arguments->object_id, "Object whose sessions are aligned")->required();
   command->add_option("--store", arguments->store, "Keyframe store with segmented sessions")->required();
   command->add_option("--session", arguments->session_ids, "Align these sessions instead of all of the object");
-  command->add_flag("--grey", arguments->grey, "By the shape alone, without colour and features");
+  command->add_flag("--grey", arguments->gray, "By the shape alone, without colour and features");
   command->add_option("--rotations", arguments->options.pair.rotations, "Rotations tried, evenly over all")
       ->capture_default_str();
   command->add_option("--min-overlap", arguments->options.pair.min_overlap_ratio, "Least share of surface in common")

@@ -126,7 +126,7 @@ CommandOutput run(const CompareArguments& arguments, base::JobControl& control)
   if (!arguments.transform_file.empty())
     evaluation::writeTransform(arguments.transform_file, comparison.T_reference_model);
   if (!arguments.cloud_file.empty())
-    evaluation::writeColouredCloud(arguments.cloud_file, comparison, arguments.red_from_mm / 1000);
+    evaluation::writeColoredCloud(arguments.cloud_file, comparison, arguments.red_from_mm / 1000);
   if (!arguments.histogram_file.empty())
     evaluation::writeHistogram(arguments.histogram_file, histogram, comparison.statistics);
   return describe(comparison, histogram, points.left_out);

@@ -88,7 +88,7 @@ void writeView(const std::string& folder, std::size_t index, const rgbd::View& v
   std::array<char, 32> number{};
   std::snprintf(number.data(), number.size(), "%08zu", index);
   const std::string id = number.data();
-  writeOrganisedCloud(folder + "/cloud_" + id + ".pcd", view.frame);
+  writeOrganizedCloud(folder + "/cloud_" + id + ".pcd", view.frame);
   writeText(folder + "/pose_" + id + ".txt", poseText(view.T_world_camera));
   writeText(folder + "/object_indices_" + id + ".txt", indicesText(view.frame));
   writeImage(folder + "/image_" + id + ".jpg", view.frame.color_bgr, { cv::IMWRITE_JPEG_QUALITY, JPEG_QUALITY });

@@ -193,7 +193,7 @@ fusion::FusedCloud readCloud(const std::string& path)
   return cloud;
 }
 
-void writeOrganisedCloud(const std::string& path, const rgbd::Frame& frame)
+void writeOrganizedCloud(const std::string& path, const rgbd::Frame& frame)
 {
   const cv::Mat& color = frame.color_bgr;
   pcl::PCLPointCloud2 file = emptyCloud(VIEW_FIELDS, color.cols, color.rows);

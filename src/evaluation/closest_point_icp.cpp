@@ -73,7 +73,7 @@ Placement trimmedIcp(const std::vector<Eigen::Vector3d>& points, const SampleTre
     Eigen::Isometry3d step;
     if (!geometry::rigidTransformFromPoints(targets, moved, &step))
       break;
-    start.T_reference_model = geometry::normalised(step * start.T_reference_model);
+    start.T_reference_model = geometry::normalized(step * start.T_reference_model);
   }
   return start;
 }
@@ -123,7 +123,7 @@ double fitToSurface(const std::vector<Eigen::Vector3d>& points, const mesh::Refe
   step = scale.asDiagonal() * step;
   const Eigen::Isometry3d about_center =
       Eigen::Translation3d(center) * geometry::isometryFromVector(step) * Eigen::Translation3d(-center);
-  *T_reference_model = geometry::normalised(about_center * *T_reference_model);
+  *T_reference_model = geometry::normalized(about_center * *T_reference_model);
   return size_m;
 }
 

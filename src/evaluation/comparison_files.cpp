@@ -44,7 +44,7 @@ Eigen::Isometry3d readTransform(const std::string& path)
     throw Error(StatusCode::BAD_INPUT, "'" + path +
                                            "' is no rigid transform: a rotation and a shift (m) are needed, "
                                            "and 0 0 0 1 below");
-  return geometry::normalised(Eigen::Isometry3d(matrix));
+  return geometry::normalized(Eigen::Isometry3d(matrix));
 }
 
 void writeTransform(const std::string& path, const Eigen::Isometry3d& T_target_source)
@@ -90,7 +90,7 @@ void writeHistogram(const std::string& path, const Histogram& histogram, const D
                             });
 }
 
-void writeColouredCloud(const std::string& path, const Comparison& comparison, double red_from_m)
+void writeColoredCloud(const std::string& path, const Comparison& comparison, double red_from_m)
 {
   const auto count = static_cast<int>(comparison.distances_m.size());
   cv::Mat levels(count, 1, CV_8UC1), colors_bgr;

@@ -13,10 +13,10 @@ namespace
 constexpr int WIDTH_PX = 960, HEIGHT_PX = 540, LEFT_PX = 80, RIGHT_PX = 30, TOP_PX = 70, BOTTOM_PX = 70;
 const cv::Scalar WHITE(255, 255, 255), INK(60, 60, 60), GRID(225, 225, 225), BAR(176, 120, 60), BEYOND(60, 60, 200);
 
-void write(cv::Mat* image, const std::string& text, const cv::Point& at, double size, bool centred)
+void write(cv::Mat* image, const std::string& text, const cv::Point& at, double size, bool centered)
 {
   const cv::Size extent = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size, 1, nullptr);
-  cv::putText(*image, text, { at.x - (centred ? extent.width / 2 : 0), at.y }, cv::FONT_HERSHEY_SIMPLEX, size, INK, 1,
+  cv::putText(*image, text, { at.x - (centered ? extent.width / 2 : 0), at.y }, cv::FONT_HERSHEY_SIMPLEX, size, INK, 1,
               cv::LINE_AA);
 }
 

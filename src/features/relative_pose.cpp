@@ -114,7 +114,7 @@ void refineStep(const std::vector<PointPair>& pairs, const Prepared& prepared, d
     b += weight * J.transpose() * information * error;
   }
   if (const std::optional<geometry::Vector6d> step = geometry::solveWellPosed(A, b))
-    *T_a_b = geometry::normalised(geometry::isometryFromVector(*step) * *T_a_b);
+    *T_a_b = geometry::normalized(geometry::isometryFromVector(*step) * *T_a_b);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "colouring.h"
+#include "coloring.h"
 #include "consistency.h"
 #include "object_modelling/base/options.h"
 #include "observation.h"
@@ -109,7 +109,7 @@ CloudFusionResult fuse(const std::vector<rgbd::View>& views, const CloudFusionOp
     return nothing("every fused point is contradicted by other views or masks", "check poses and masks");
 
   control.report("fuse", 4, STAGES);
-  result.cloud.colors = colourSurfels(prepared, surfels, options.consistency_sigmas);
+  result.cloud.colors = colorSurfels(prepared, surfels, options.consistency_sigmas);
   for (const Surfel& surfel : surfels)
   {
     result.cloud.points.push_back(surfel.point);

@@ -21,7 +21,7 @@ public:
   /// Calls visit(index, observation) for all observations in the cells that a cube of half edge `radius_m` round
   /// `center` touches.
   template <typename Visit>
-  void forNeighbours(const Eigen::Vector3f& center, float radius_m, Visit visit) const
+  void forNeighbors(const Eigen::Vector3f& center, float radius_m, Visit visit) const
   {
     const Eigen::Array3i low = cellOf(center.array() - radius_m), high = cellOf(center.array() + radius_m);
     for (int z = low.z(); z <= high.z(); ++z)

@@ -108,28 +108,28 @@ bool fitSurfel(const ObservationGrid& grid, const CloudFusionOptions& options, i
     int count = 0;
     if (last)
       std::fill(views_scratch->begin(), views_scratch->end(), 0);
-    grid.forNeighbours(surfel->point, radius_m,
-                       [&](std::uint32_t, const Observation& observation)
-                       {
-                         const Eigen::Vector3f d = observation.point - surfel->point;
-                         const float height = n.dot(d);
-                         const float lateral_squared = d.squaredNorm() - height * height;
-                         if (lateral_squared > radius_m * radius_m || std::abs(height) > sigmas * observation.sigma_m ||
-                             n.dot(observation.normal) < SAME_SIDE_COSINE)
-                           return;
-                         const float falloff = 1 - lateral_squared / (radius_m * radius_m);
-                         const float kernel = falloff * falloff;
-                         const float w = kernel * observation.information();
-                         fit.add(e1.dot(d) / radius_m, e2.dot(d) / radius_m, height, w);
-                         normal_sum += w * observation.normal;
-                         sum += w;
-                         square_sum += w * w;
-                         height_square_sum += w * height * height;
-                         weight_sum += kernel * observation.weight;
-                         ++count;
-                         if (last)
-                           (*views_scratch)[observation.view] = 1;
-                       });
+    grid.forNeighbors(surfel->point, radius_m,
+                      [&](std::uint32_t, const Observation& observation)
+                      {
+                        const Eigen::Vector3f d = observation.point - surfel->point;
+                        const float height = n.dot(d);
+                        const float lateral_squared = d.squaredNorm() - height * height;
+                        if (lateral_squared > radius_m * radius_m || std::abs(height) > sigmas * observation.sigma_m ||
+                            n.dot(observation.normal) < SAME_SIDE_COSINE)
+                          return;
+                        const float falloff = 1 - lateral_squared / (radius_m * radius_m);
+                        const float kernel = falloff * falloff;
+                        const float w = kernel * observation.information();
+                        fit.add(e1.dot(d) / radius_m, e2.dot(d) / radius_m, height, w);
+                        normal_sum += w * observation.normal;
+                        sum += w;
+                        square_sum += w * w;
+                        height_square_sum += w * height * height;
+                        weight_sum += kernel * observation.weight;
+                        ++count;
+                        if (last)
+                          (*views_scratch)[observation.view] = 1;
+                      });
     if (count < MIN_OBSERVATIONS || !(normal_sum.norm() > 0))
       return false;
     const Eigen::LDLT<Matrix6f> factorised = fit.factorised();

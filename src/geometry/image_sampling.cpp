@@ -38,7 +38,7 @@ Eigen::Vector3f colorAt(const cv::Mat& image, const Eigen::Vector2f& pixel)
 
 bool sampleGray(const cv::Mat& gray, float u_px, float v_px, float* value, Eigen::Vector2f* gradient)
 {
-  if (!hasNeighbours(gray, u_px, v_px))
+  if (!hasNeighbors(gray, u_px, v_px))
     return false;
   const SubPixel at(u_px, v_px);
   const auto* upper = gray.ptr<std::uint8_t>(at.v) + at.u;

@@ -21,7 +21,7 @@ struct Interval
   double high = 0;
 
   double length() const { return high - low; }
-  double centre() const { return 0.5 * (low + high); }
+  double center() const { return 0.5 * (low + high); }
 };
 
 /// Extent of the values without the `trim` smallest and largest. Reorders them.
@@ -170,8 +170,8 @@ OrientedBox boxAlong(const Eigen::Vector3d& up, const std::vector<Eigen::Vector3
   const double angle = rectangle.angle_rad;
   Eigen::Vector3d x = std::cos(angle) * a + std::sin(angle) * b;
   Eigen::Vector3d y = z.cross(x);
-  const Eigen::Vector3d centre =
-      origin + rectangle.first.centre() * x + rectangle.second.centre() * y + height.centre() * z;
+  const Eigen::Vector3d center =
+      origin + rectangle.first.center() * x + rectangle.second.center() * y + height.center() * z;
   if (rectangle.first.length() < rectangle.second.length())
   {
     std::swap(rectangle.first, rectangle.second);
@@ -181,7 +181,7 @@ OrientedBox boxAlong(const Eigen::Vector3d& up, const std::vector<Eigen::Vector3
   }
   OrientedBox box;
   box.T_frame_box.linear() << x, y, z;
-  box.T_frame_box.translation() = centre;
+  box.T_frame_box.translation() = center;
   box.size_m = { rectangle.first.length(), rectangle.second.length(), height.length() };
   return box;
 }

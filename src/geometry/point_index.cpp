@@ -64,23 +64,23 @@ template <typename Scalar>
 PointIndexOf<Scalar>::~PointIndexOf() = default;
 
 template <typename Scalar>
-typename PointIndexOf<Scalar>::Neighbour PointIndexOf<Scalar>::nearest(const Point& query) const
+typename PointIndexOf<Scalar>::Neighbor PointIndexOf<Scalar>::nearest(const Point& query) const
 {
-  Neighbour found;
+  Neighbor found;
   implementation_->find(query, 1, &found.index, &found.squared_distance);
   return found;
 }
 
 template <typename Scalar>
-void PointIndexOf<Scalar>::nearest(const Point& query, std::size_t count, std::vector<Neighbour>* neighbours) const
+void PointIndexOf<Scalar>::nearest(const Point& query, std::size_t count, std::vector<Neighbor>* neighbors) const
 {
   constexpr std::size_t MAX_COUNT = 32;
   std::uint32_t indices[MAX_COUNT];
   Scalar distances[MAX_COUNT];
   const std::size_t found = implementation_->find(query, std::min(count, MAX_COUNT), indices, distances);
-  neighbours->clear();
+  neighbors->clear();
   for (std::size_t i = 0; i < found; ++i)
-    neighbours->push_back({ indices[i], distances[i] });
+    neighbors->push_back({ indices[i], distances[i] });
 }
 
 template <typename Scalar>

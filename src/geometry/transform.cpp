@@ -10,8 +10,8 @@ namespace
 {
 bool collinear(const Eigen::Matrix3Xd& points)
 {
-  const Eigen::Matrix3Xd centred = points.colwise() - points.rowwise().mean();
-  const Eigen::Matrix3d moments = centred * centred.transpose();
+  const Eigen::Matrix3Xd centered = points.colwise() - points.rowwise().mean();
+  const Eigen::Matrix3d moments = centered * centered.transpose();
   const Eigen::Vector3d spread = moments.jacobiSvd().singularValues();
   return !(spread[1] > 1e-12 * spread[0]);
 }
@@ -95,7 +95,7 @@ Eigen::Matrix3f rotationBetween(const Eigen::Vector3f& from, const Eigen::Vector
   return rotationBetweenOf<float>(from, to);
 }
 
-Eigen::Isometry3d normalised(const Eigen::Isometry3d& T)
+Eigen::Isometry3d normalized(const Eigen::Isometry3d& T)
 {
   return isometryFrom(Eigen::Quaterniond(T.linear()), T.translation());
 }

@@ -141,7 +141,7 @@ rgbd::Keyframe decodeKeyframe(const EncodedKeyframe& row, const std::string& wha
   frame.color_bgr = decodePng(row.color_png, CV_8UC3, size, "colour image of " + what);
   cv::cvtColor(frame.color_bgr, frame.gray, cv::COLOR_BGR2GRAY);
   frame.depth_m =
-      rgbd::depthInMetres(decodePng(row.depth_png, CV_16UC1, size, "depth image of " + what), row.depth_unit_m);
+      rgbd::depthInMeters(decodePng(row.depth_png, CV_16UC1, size, "depth image of " + what), row.depth_unit_m);
   if (!row.mask_png.empty())
     frame.object_mask = decodePng(row.mask_png, CV_8UC1, size, "mask of " + what);
   if (!row.moving_mask_png.empty())

@@ -14,7 +14,7 @@ namespace
 {
 constexpr double NEAR_M = 0.001;
 constexpr float AMBIENT = 0.5f, BACK_SIDE = 0.5f;
-const Eigen::Vector3f UNCOLOURED_RGB(190, 190, 190);
+const Eigen::Vector3f UNCOLORED_RGB(190, 190, 190);
 
 struct Corner
 {
@@ -143,7 +143,7 @@ MeshView renderMesh(const TriangleMesh& mesh, const geometry::PinholeCamera& cam
   {
     Corner corner;
     corner.p_camera = T_camera_model * mesh.vertices[vertex].cast<double>();
-    corner.rgb = mesh.colors.empty() ? UNCOLOURED_RGB : Eigen::Vector3f(mesh.colors[vertex].cast<float>());
+    corner.rgb = mesh.colors.empty() ? UNCOLORED_RGB : Eigen::Vector3f(mesh.colors[vertex].cast<float>());
     corner.n_camera = mesh.normals.empty() ? Eigen::Vector3f(Eigen::Vector3f::Zero())
                                            : Eigen::Vector3f(R_camera_model * mesh.normals[vertex]);
     return corner;

@@ -5,7 +5,7 @@
 
 namespace object_modelling::mesh
 {
-TriangleNeighbours triangleNeighbours(const TriangleMesh& mesh)
+TriangleNeighbors triangleNeighbors(const TriangleMesh& mesh)
 {
   struct Side
   {
@@ -27,7 +27,7 @@ TriangleNeighbours triangleNeighbours(const TriangleMesh& mesh)
                          ? std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high)
                          : a.triangle < b.triangle;
             });
-  TriangleNeighbours neighbours(mesh.triangles.size(), { -1, -1, -1 });
+  TriangleNeighbors neighbors(mesh.triangles.size(), { -1, -1, -1 });
   for (std::size_t i = 0; i < sides.size();)
   {
     std::size_t end = i + 1;
@@ -35,29 +35,29 @@ TriangleNeighbours triangleNeighbours(const TriangleMesh& mesh)
       ++end;
     if (end == i + 2)
     {
-      neighbours[sides[i].triangle][sides[i].corner] = sides[i + 1].triangle;
-      neighbours[sides[i + 1].triangle][sides[i + 1].corner] = sides[i].triangle;
+      neighbors[sides[i].triangle][sides[i].corner] = sides[i + 1].triangle;
+      neighbors[sides[i + 1].triangle][sides[i + 1].corner] = sides[i].triangle;
     }
     i = end;
   }
-  return neighbours;
+  return neighbors;
 }
 
-std::vector<std::vector<std::uint32_t>> vertexNeighbours(const TriangleMesh& mesh)
+std::vector<std::vector<std::uint32_t>> vertexNeighbors(const TriangleMesh& mesh)
 {
-  std::vector<std::vector<std::uint32_t>> neighbours(mesh.vertices.size());
+  std::vector<std::vector<std::uint32_t>> neighbors(mesh.vertices.size());
   for (const auto& triangle : mesh.triangles)
     for (int i = 0; i < 3; ++i)
     {
-      neighbours[triangle[i]].push_back(triangle[(i + 1) % 3]);
-      neighbours[triangle[i]].push_back(triangle[(i + 2) % 3]);
+      neighbors[triangle[i]].push_back(triangle[(i + 1) % 3]);
+      neighbors[triangle[i]].push_back(triangle[(i + 2) % 3]);
     }
-  for (std::vector<std::uint32_t>& of_vertex : neighbours)
+  for (std::vector<std::uint32_t>& of_vertex : neighbors)
   {
     std::sort(of_vertex.begin(), of_vertex.end());
     of_vertex.erase(std::unique(of_vertex.begin(), of_vertex.end()), of_vertex.end());
   }
-  return neighbours;
+  return neighbors;
 }
 
 Eigen::Vector3f triangleNormal(const TriangleMesh& mesh, std::size_t triangle)

@@ -80,7 +80,7 @@ public:
             continue;  // stays to the bit
           largest.moved_m = std::max(largest.moved_m, displacement_m((*motions)[k], moved[k]));
           largest.turned_rad = std::max(largest.turned_rad, (*motions)[k].tail<3>().norm());
-          moved[k] = geometry::normalised(geometry::isometryFromVector((*motions)[k]) * moved[k]);
+          moved[k] = geometry::normalized(geometry::isometryFromVector((*motions)[k]) * moved[k]);
         }
         if (problem_.cost(moved) <= cost)
         {

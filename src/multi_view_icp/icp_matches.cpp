@@ -35,19 +35,19 @@ bool searchPartner(const IcpView& a, const geometry::Projection<float>& at, cons
   if (!at.inside)
     return false;
   const cv::Rect image({ 0, 0 }, a.size());
-  cv::Point centre(at.column, at.row);
+  cv::Point center(at.column, at.row);
   const int radius = std::min(40, cvRound(gate_m * a.focal_px() / q.z()));
-  float best = a.has(centre.x, centre.y) ? mismatch(a, q, n, gate_m, centre.x, centre.y) : INFINITY;
-  *partner = centre;
+  float best = a.has(center.x, center.y) ? mismatch(a, q, n, gate_m, center.x, center.y) : INFINITY;
+  *partner = center;
   for (int step = (radius + 1) / 2; step >= 1; step /= 2)
   {
-    centre = *partner;
+    center = *partner;
     const int reach = step == (radius + 1) / 2 ? 2 : 1;
     for (int dv = -reach; dv <= reach; ++dv)
     {
       for (int du = -reach; du <= reach; ++du)
       {
-        const cv::Point candidate(centre.x + du * step, centre.y + dv * step);
+        const cv::Point candidate(center.x + du * step, center.y + dv * step);
         if ((du == 0 && dv == 0) || !image.contains(candidate) || !a.has(candidate.x, candidate.y))
           continue;
         const float value = mismatch(a, q, n, gate_m, candidate.x, candidate.y);

@@ -30,7 +30,7 @@ geometry::Matrix6d withoutNoise(const geometry::Matrix6d& A, const geometry::Mat
 }
 
 /// Mean of what a view sees, in the world.
-Eigen::Vector3d centreOf(const rgbd::Frame& frame, bool object_only, const Eigen::Isometry3d& T_world_camera)
+Eigen::Vector3d centerOf(const rgbd::Frame& frame, bool object_only, const Eigen::Isometry3d& T_world_camera)
 {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int count = 0;
@@ -47,21 +47,21 @@ Eigen::Vector3d centreOf(const rgbd::Frame& frame, bool object_only, const Eigen
   return T_world_camera * Eigen::Vector3d(sum / std::max(1, count));
 }
 
-FreeDirection directionOf(int view, const Eigen::Vector3d& t, const Eigen::Vector3d& r, const Eigen::Vector3d& centre)
+FreeDirection directionOf(int view, const Eigen::Vector3d& t, const Eigen::Vector3d& r, const Eigen::Vector3d& center)
 {
   FreeDirection free;
   free.view = view;
   free.rotation = AXIS_DISTANCE_M * r.norm() > t.norm();
   free.axis_world = (free.rotation ? r : t).normalized();
   if (free.rotation)
-    free.point_on_axis_world = centre + r.cross(t) / r.squaredNorm();
+    free.point_on_axis_world = center + r.cross(t) / r.squaredNorm();
   return free;
 }
 
 /// Motions of one view that its partners resist by no more than noise. (Summed first: the directions that single
 /// pairs leave free differ a little, so that together they would seem to resist.)
 std::vector<FreeDirection> unresisted(int view, const geometry::Matrix6d& A, const geometry::Matrix6d& noise,
-                                      const Eigen::Vector3d& centre)
+                                      const Eigen::Vector3d& center)
 {
   const auto information = geometry::informationOverNoise(A, noise);
   std::vector<FreeDirection> directions;
@@ -71,18 +71,18 @@ std::vector<FreeDirection> unresisted(int view, const geometry::Matrix6d& A, con
       continue;
     const geometry::Vector6d motion = information->V.col(i);
     const Eigen::Vector3d r = motion.tail<3>();
-    directions.push_back(directionOf(view, motion.head<3>() + r.cross(centre), r, centre));
+    directions.push_back(directionOf(view, motion.head<3>() + r.cross(center), r, center));
   }
   return directions;
 }
 
 /// Directions of a pose that are not known, given what it sees about `centre` (world).
-std::vector<FreeDirection> unknown(int view, const geometry::Matrix6d& covariance, const Eigen::Vector3d& centre)
+std::vector<FreeDirection> unknown(int view, const geometry::Matrix6d& covariance, const Eigen::Vector3d& center)
 {
   // As displacements: of the centre, and of points OBJECT_LEVER_M from it.
-  geometry::Matrix6d to_centre = geometry::adjoint(Eigen::Isometry3d(Eigen::Translation3d(-centre)));
-  to_centre.bottomRows<3>() *= OBJECT_LEVER_M;
-  const geometry::Matrix6d displacements = to_centre * covariance * to_centre.transpose();
+  geometry::Matrix6d to_center = geometry::adjoint(Eigen::Isometry3d(Eigen::Translation3d(-center)));
+  to_center.bottomRows<3>() *= OBJECT_LEVER_M;
+  const geometry::Matrix6d displacements = to_center * covariance * to_center.transpose();
   const geometry::EigenSystem<6> system = geometry::eigenSystem(displacements);
   std::vector<FreeDirection> directions;
   for (int i = 0; i < 6; ++i)
@@ -91,7 +91,7 @@ std::vector<FreeDirection> unknown(int view, const geometry::Matrix6d& covarianc
       continue;
     const Eigen::Vector3d t = system.vectors.col(i).head<3>();
     const Eigen::Vector3d r = system.vectors.col(i).tail<3>() / OBJECT_LEVER_M;
-    directions.push_back(directionOf(view, t, r, centre));
+    directions.push_back(directionOf(view, t, r, center));
   }
   return directions;
 }
@@ -154,10 +154,10 @@ void reportKnowledge(const std::vector<rgbd::View>& views, const std::vector<int
     const int k = outcome.members[i];
     if (!covariances[k].isZero(0))  // equations that cannot be solved give none
       result->covariance[k] = covariances[k];
-    const Eigen::Vector3d centre = centreOf(views[k].frame, object_only, outcome.T_world_camera[k]);
-    std::vector<FreeDirection> free = unresisted(k, information_of[k], noise_of[k], centre);
+    const Eigen::Vector3d center = centerOf(views[k].frame, object_only, outcome.T_world_camera[k]);
+    std::vector<FreeDirection> free = unresisted(k, information_of[k], noise_of[k], center);
     if (free.empty())
-      free = unknown(k, covariances[k], centre);
+      free = unknown(k, covariances[k], center);
     result->free_directions.insert(result->free_directions.end(), free.begin(), free.end());
   }
 }

@@ -213,7 +213,7 @@ DenseAlignment alignDense(const DenseReference& reference, const Eigen::Isometry
                    step.dot(equations.A * step) < CONVERGED_STEP_SIGMAS * CONVERGED_STEP_SIGMAS;
       // The term stands for the pose at which it was evaluated, so the last step is left to whoever uses the term.
       if (!small_step || i > options.finest_level)
-        T_camera_world = geometry::normalised(geometry::isometryFromVector(step) * T_camera_world);
+        T_camera_world = geometry::normalized(geometry::isometryFromVector(step) * T_camera_world);
     }
     alignment.converged = small_step;
   }

@@ -32,14 +32,14 @@ cv::Mat reduceDepth(const cv::Mat& depth_m, int step, cv::Size size)
     for (int u = 0; u < size.width; ++u)
     {
       const int x = std::clamp(u * step, 1, depth_m.cols - 2);
-      const float centre = rows[1][x];
-      const float gate = SURFACE_STEP_RATIO * centre;
+      const float center = rows[1][x];
+      const float gate = SURFACE_STEP_RATIO * center;
       float sum = 0;
       float count = 0;
       // Opposite neighbours go together, so that the mean of a slanted surface stays in place. NaN fails the test.
       const auto add = [&](float a, float b)
       {
-        if (std::abs(a - centre) <= gate && std::abs(b - centre) <= gate)
+        if (std::abs(a - center) <= gate && std::abs(b - center) <= gate)
         {
           sum += a + b;
           count += 2;
@@ -49,7 +49,7 @@ cv::Mat reduceDepth(const cv::Mat& depth_m, int step, cv::Size size)
       add(rows[0][x], rows[2][x]);
       add(rows[0][x + 1], rows[2][x - 1]);
       add(rows[1][x - 1], rows[1][x + 1]);
-      out[u] = count > 0 ? (sum + centre) / (count + 1) : std::numeric_limits<float>::quiet_NaN();
+      out[u] = count > 0 ? (sum + center) / (count + 1) : std::numeric_limits<float>::quiet_NaN();
     }
   }
   return reduced;

@@ -103,7 +103,7 @@ std::vector<ColorGradient> slopes(const PartialModel& model, const geometry::Poi
 
 MatchedSurface::MatchedSurface(const PartialModel& given, int threads)
     : model(given),
-      centre(given.centre()),
+      center(given.center()),
       radius_m(static_cast<float>(given.radius_m())),
       coarse(given.points, COARSE_REACH_RATIO * given.radius_m(),
              std::max(COARSE_CELL_RATIO * given.radius_m(), given.spacing_m / 2)),

@@ -71,7 +71,7 @@ void addPairs(const MatchedSurface& fixed, const MatchedSurface& moving, const E
     if (std::abs(residual) > gate_m)
       continue;
     ++equations->pairs;
-    const Eigen::Vector3f arm = (T_a_fixed * q - a.centre) / a.radius_m;
+    const Eigen::Vector3f arm = (T_a_fixed * q - a.center) / a.radius_m;
     const float scale = std::max(MIN_SCALE_M, gate_m / 3);
     equations->add(arm, T_a_fixed.linear() * n * sign, residual,
                    robustWeight(residual, scale) / (SURFACE_SIGMA_M * SURFACE_SIGMA_M));
@@ -96,7 +96,7 @@ void addContact(const MatchedSurface& a, const MatchedSurface& b, const Eigen::I
   const auto add = [&](const Eigen::Vector3f& p_a, const Eigen::Vector3f& direction, float height_m)
   {
     if (std::abs(height_m) < max_gap_m)
-      equations->add((p_a - a.centre) / a.radius_m, direction, height_m, weight);
+      equations->add((p_a - a.center) / a.radius_m, direction, height_m, weight);
   };
   if (a.model.support_plane)
   {
@@ -137,7 +137,7 @@ Eigen::Isometry3f alignByIcp(const MatchedSurface& a, const MatchedSurface& b, c
     Eigen::Isometry3f motion = Eigen::Isometry3f::Identity();
     if (turn.norm() > 1e-9F)
       motion.linear() = Eigen::AngleAxisf(turn.norm(), turn.normalized()).toRotationMatrix();
-    motion.translation() = a.centre - motion.linear() * a.centre + step.head<3>();
+    motion.translation() = a.center - motion.linear() * a.center + step.head<3>();
     T = motion * T;
     gate_m = std::max(static_cast<float>(options.last_gate_m), gate_m * 0.7F);
     if (step.norm() < 1e-5F)

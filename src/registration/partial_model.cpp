@@ -5,7 +5,7 @@
 
 namespace object_modelling::registration
 {
-Eigen::Vector3f PartialModel::centre() const
+Eigen::Vector3f PartialModel::center() const
 {
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& p : points)
@@ -15,7 +15,7 @@ Eigen::Vector3f PartialModel::centre() const
 
 double PartialModel::radius_m() const
 {
-  const Eigen::Vector3f middle = centre();
+  const Eigen::Vector3f middle = center();
   float squared = 0;
   for (const Eigen::Vector3f& p : points)
     squared = std::max(squared, (p - middle).squaredNorm());

@@ -13,12 +13,12 @@ namespace
 /// Patch of the reference as the current camera would see it at `centre` (current pixel at level scale); false where it
 /// leaves the reference.
 bool warpTemplate(const cv::Mat& reference, double reference_scale, double current_scale,
-                  const Eigen::Matrix3d& H_reference_current, const Eigen::Vector2d& centre, PatchTemplate* patch)
+                  const Eigen::Matrix3d& H_reference_current, const Eigen::Vector2d& center, PatchTemplate* patch)
 {
   // From the window's first pixel at level scale to the reference's level; cv::pyrDown puts pixel u of a level on pixel
   // 2 u of the level below.
   Eigen::Matrix3d H = H_reference_current;
-  H.col(2) += current_scale * (H.leftCols<2>() * (centre.array() - (PATCH_HALF + 1)).matrix());
+  H.col(2) += current_scale * (H.leftCols<2>() * (center.array() - (PATCH_HALF + 1)).matrix());
   H.leftCols<2>() *= current_scale;
   H.topRows<2>() /= reference_scale;
   // A quadrilateral in front of the camera is inside if its corners are.
@@ -40,14 +40,14 @@ bool warpTemplate(const cv::Mat& reference, double reference_scale, double curre
 }
 
 /// Window of an image round a sub-pixel position; false where it leaves the image.
-bool sampleWindow(const cv::Mat& image, const Eigen::Vector2d& centre, PatchWindow* window)
+bool sampleWindow(const cv::Mat& image, const Eigen::Vector2d& center, PatchWindow* window)
 {
-  const Eigen::Vector2d whole = centre.array().floor();
+  const Eigen::Vector2d whole = center.array().floor();
   const int u = static_cast<int>(whole.x()) - PATCH_HALF - 1;
   const int v = static_cast<int>(whole.y()) - PATCH_HALF - 1;
   if (!(u >= 0 && v >= 0 && u + WINDOW_SIDE < image.cols && v + WINDOW_SIDE < image.rows))
     return false;
-  const Eigen::Vector2f rest = (centre - whole).cast<float>();
+  const Eigen::Vector2f rest = (center - whole).cast<float>();
   shiftWindow(image, u, v, rest.x(), rest.y(), window);
   return true;
 }
@@ -133,9 +133,9 @@ PatchRefinement refinePatch(const std::vector<cv::Mat>& reference, const std::ve
     const double scale = 1 << level;
     const int reference_level = std::min(static_cast<int>(reference.size()) - 1,
                                          std::max(0, static_cast<int>(std::lround(std::log2(scale / magnification)))));
-    const Eigen::Vector2d centre = projected / scale;
+    const Eigen::Vector2d center = projected / scale;
     PatchTemplate patch;
-    if (!warpTemplate(reference[reference_level], 1 << reference_level, scale, H_reference_current, centre, &patch))
+    if (!warpTemplate(reference[reference_level], 1 << reference_level, scale, H_reference_current, center, &patch))
       return result;
     const LevelOutcome outcome = alignAtLevel(patch, current[level], pixel / scale, options);
     if (!outcome.converged)

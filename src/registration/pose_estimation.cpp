@@ -74,7 +74,7 @@ double robustSigma_px(const std::vector<Correspondence>& correspondences, const 
   return base::median(&errors_px) / 1.18;
 }
 
-geometry::NormalEquations linearise(const std::vector<Correspondence>& correspondences,
+geometry::NormalEquations linearize(const std::vector<Correspondence>& correspondences,
                                     const geometry::PinholeCamera& camera, const Eigen::Isometry3d& T_camera_world,
                                     const PoseEstimationOptions& options)
 {
@@ -111,7 +111,7 @@ PoseEstimate solve(const std::vector<Correspondence>& correspondences, const geo
   Eigen::Isometry3d T_camera_world = T_world_camera_start.inverse();
   const auto equations_at = [&](const Eigen::Isometry3d& T)
   {
-    geometry::NormalEquations equations = linearise(correspondences, camera, T, options);
+    geometry::NormalEquations equations = linearize(correspondences, camera, T, options);
     if (term)
       equations += term->at(T);
     return equations;
@@ -122,7 +122,7 @@ PoseEstimate solve(const std::vector<Correspondence>& correspondences, const geo
     const std::optional<geometry::Vector6d> step = geometry::solveWellPosed(equations.A, equations.b);
     if (!step)
       return estimate;
-    T_camera_world = geometry::normalised(geometry::isometryFromVector(*step) * T_camera_world);
+    T_camera_world = geometry::normalized(geometry::isometryFromVector(*step) * T_camera_world);
     if (step->cwiseAbs().maxCoeff() < POSE_CONVERGED_STEP)
       break;
   }

@@ -13,11 +13,11 @@ namespace
 {
 /// What the step from `z` to a neighbour's depth makes of the pixel. Written without branches: it runs four times per
 /// pixel.
-inline int classify(float z, float neighbour, float step_ratio)
+inline int classify(float z, float neighbor, float step_ratio)
 {
-  const int occluding = neighbour > z * (1 + step_ratio) ? OCCLUDING : NO_EDGE;
-  const int occluded = z > neighbour * (1 + step_ratio) ? OCCLUDED : NO_EDGE;
-  const int missing = neighbour == neighbour ? NO_EDGE : MISSING_DATA;
+  const int occluding = neighbor > z * (1 + step_ratio) ? OCCLUDING : NO_EDGE;
+  const int occluded = z > neighbor * (1 + step_ratio) ? OCCLUDED : NO_EDGE;
+  const int missing = neighbor == neighbor ? NO_EDGE : MISSING_DATA;
   return occluding | occluded | missing;
 }
 

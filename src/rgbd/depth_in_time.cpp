@@ -49,8 +49,8 @@ cv::Mat moveDepth(const cv::Mat& depth_m, const geometry::PinholeCamera& camera,
     auto* out = moved.ptr<float>(v);
     for (int u = 0; u < depth_m.cols; ++u)
     {
-      out[u] = geometry::hasNeighbours(depth_m, x[u], y[u]) ? scale_z[u] * sample(depth_m, { x[u], y[u] }) - t_z
-                                                            : std::numeric_limits<float>::quiet_NaN();
+      out[u] = geometry::hasNeighbors(depth_m, x[u], y[u]) ? scale_z[u] * sample(depth_m, { x[u], y[u] }) - t_z
+                                                           : std::numeric_limits<float>::quiet_NaN();
     }
   }
   return moved;

@@ -33,7 +33,7 @@ cv::Mat fromUnits(const cv::Mat& depth, float unit_m)
   return depth_m;
 }
 
-cv::Mat fromMetres(const cv::Mat& depth)
+cv::Mat fromMeters(const cv::Mat& depth)
 {
   cv::Mat depth_m(depth.size(), CV_32FC1);
   for (int v = 0; v < depth.rows; ++v)
@@ -48,10 +48,10 @@ cv::Mat fromMetres(const cv::Mat& depth)
 
 }  // namespace
 
-cv::Mat depthInMetres(const cv::Mat& depth, double unit_m)
+cv::Mat depthInMeters(const cv::Mat& depth, double unit_m)
 {
   if (depth.type() == CV_32FC1)
-    return fromMetres(depth);
+    return fromMeters(depth);
   if (depth.type() != CV_16UC1)
     throw base::Error(base::StatusCode::BAD_INPUT, "depth image of OpenCV type " + cv::typeToString(depth.type()) +
                                                        ": must be CV_16UC1 (units) or CV_32FC1 (metres)");
@@ -65,7 +65,7 @@ cv::Mat depthAs16Bit(const cv::Mat& depth_m, double unit_m)
     throw base::Error(base::StatusCode::BAD_INPUT,
                       "depth image of OpenCV type " + cv::typeToString(depth_m.type()) + ": must be CV_32FC1 (metres)");
   requireUnit(unit_m);
-  const auto per_metre = static_cast<float>(1.0 / unit_m);
+  const auto per_meter = static_cast<float>(1.0 / unit_m);
   cv::Mat depth(depth_m.size(), CV_16UC1);
   for (int v = 0; v < depth.rows; ++v)
   {
@@ -73,7 +73,7 @@ cv::Mat depthAs16Bit(const cv::Mat& depth_m, double unit_m)
     auto* out = depth.ptr<std::uint16_t>(v);
     for (int u = 0; u < depth.cols; ++u)
     {
-      const float units = in[u] * per_metre + 0.5f;
+      const float units = in[u] * per_meter + 0.5f;
       out[u] = units >= 1.0f && units < 65536.0f ? static_cast<std::uint16_t>(units) : 0;
     }
   }

@@ -169,7 +169,7 @@ base::Result<Frame> FrameBuilder::build(const RawFrame& raw)
   frame.camera = raw.camera;
   frame.camera.distortion.clear();
   frame.noise_model = options_.noise_model;
-  frame.depth_m = depthInMetres(images.depth, raw.depth_unit_m);
+  frame.depth_m = depthInMeters(images.depth, raw.depth_unit_m);
   takeBiasOff(&frame.depth_m);
   const std::size_t count =
       clip(static_cast<float>(options_.min_depth_m), static_cast<float>(options_.max_depth_m), &frame.depth_m);

@@ -12,7 +12,7 @@ std::vector<std::string> NormalOptions::violations() const
   base::OptionsCheck check("normals");
   check.inRange("radius_px", radius_px, 1, 50);
   check.inRange("max_depth_step_ratio", max_depth_step_ratio, 1e-5, 1.0);
-  check.atLeast("min_neighbours", min_neighbours, 3);
+  check.atLeast("min_neighbors", min_neighbors, 3);
   return check.violations();
 }
 

@@ -30,7 +30,7 @@ cv::Mat paperWeights(const Frame& frame, const cv::Mat& normals, const cv::Mat& 
 {
   const geometry::PinholeCamera& camera = frame.camera;
   const auto cos_theta_max = static_cast<float>(std::cos(options.theta_max_rad));
-  const auto metres_per_px = static_cast<float>(2.0 / (camera.fx + camera.fy));  // at a depth of 1 m
+  const auto meters_per_px = static_cast<float>(2.0 / (camera.fx + camera.fy));  // at a depth of 1 m
   cv::Mat weights(frame.depth_m.size(), CV_32FC1);
   for (int v = 0; v < weights.rows; ++v)
   {
@@ -50,7 +50,7 @@ cv::Mat paperWeights(const Frame& frame, const cv::Mat& normals, const cv::Mat& 
         continue;
       const double angle_weight =
           cos_theta >= cos_theta_max ? 1 : angleWeight(std::acos(cos_theta), options.theta_max_rad);
-      const float distance_m = distance_px[u] * depth_m[u] * metres_per_px;
+      const float distance_m = distance_px[u] * depth_m[u] * meters_per_px;
       weight[u] = static_cast<float>(angle_weight * edgeWeight(distance_m, options));
     }
   }

@@ -12,10 +12,10 @@ std::optional<SurfacePoint> fitSurface(const Frame& frame, const Eigen::Vector2d
   const int radius = options.radius_px;
   if (u < radius || v < radius || u >= frame.depth_m.cols - radius || v >= frame.depth_m.rows - radius)
     return std::nullopt;
-  const float centre_m = frame.depthAt_m(u, v);
-  if (!(centre_m > 0))
+  const float center_m = frame.depthAt_m(u, v);
+  if (!(center_m > 0))
     return std::nullopt;
-  const float gate_m = static_cast<float>(options.max_depth_step_ratio) * centre_m;
+  const float gate_m = static_cast<float>(options.max_depth_step_ratio) * center_m;
   // Moments about the sub-pixel position, of w = w0 + a du + b dv.
   double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, w = 0, xw = 0, yw = 0;
   for (int dv = -radius; dv <= radius; ++dv)
@@ -25,7 +25,7 @@ std::optional<SurfacePoint> fitSurface(const Frame& frame, const Eigen::Vector2d
     for (int column = u - radius; column <= u + radius; ++column)
     {
       // NaN fails the test.
-      if (!(std::abs(row[column] - centre_m) <= gate_m))
+      if (!(std::abs(row[column] - center_m) <= gate_m))
         continue;
       const double dx = column - pixel.x();
       const double inverse = 1.0 / row[column];
@@ -40,7 +40,7 @@ std::optional<SurfacePoint> fitSurface(const Frame& frame, const Eigen::Vector2d
       yw += dy * inverse;
     }
   }
-  if (n < options.min_neighbours + 1)
+  if (n < options.min_neighbors + 1)
     return std::nullopt;
   const double mean_x = x / n, mean_y = y / n, mean_w = w / n;
   const double c_xx = xx / n - mean_x * mean_x, c_xy = xy / n - mean_x * mean_y, c_yy = yy / n - mean_y * mean_y;

@@ -11,11 +11,11 @@ namespace object_modelling::rgbd
 namespace
 {
 /// Normal of the plane w = w_centre + a (u - u_centre) + b (v - v_centre), towards the camera.
-inline cv::Vec3f normalOf(const FloatIntrinsics& camera, int u, int v, float a, float b, float w_centre)
+inline cv::Vec3f normalOf(const FloatIntrinsics& camera, int u, int v, float a, float b, float w_center)
 {
   const float x = a * camera.fx;
   const float y = b * camera.fy;
-  const float z = w_centre + a * (camera.cx - static_cast<float>(u)) + b * (camera.cy - static_cast<float>(v));
+  const float z = w_center + a * (camera.cx - static_cast<float>(u)) + b * (camera.cy - static_cast<float>(v));
   const float scale = -1.0f / std::sqrt(x * x + y * y + z * z);
   return { x * scale, y * scale, z * scale };
 }
@@ -134,7 +134,7 @@ GatedWindowFit::GatedWindowFit(const PaddedDepth& padded, const geometry::Pinhol
     : padded_(padded),
       camera_(camera),
       step_ratio_(static_cast<float>(options.max_depth_step_ratio)),
-      min_count_(static_cast<float>(options.min_neighbours + 1))
+      min_count_(static_cast<float>(options.min_neighbors + 1))
 {
 }
 

@@ -13,7 +13,7 @@ namespace object_modelling::ros_bridge
 {
 namespace
 {
-constexpr double MILLIMETRE_M = 0.001;
+constexpr double MILLIMETER_M = 0.001;
 
 void requireSize(const cv::Mat& image, const geometry::PinholeCamera& camera, const std::string& what)
 {
@@ -39,7 +39,7 @@ rgbd::Frame frameFromMessage(const object_modelling::Keyframe& message)
     frame.color_bgr = color;
     cv::cvtColor(color, frame.gray, cv::COLOR_BGR2GRAY);
   }
-  frame.depth_m = rgbd::depthInMetres(depthFromMessage(message.depth), MILLIMETRE_M);
+  frame.depth_m = rgbd::depthInMeters(depthFromMessage(message.depth), MILLIMETER_M);
   frame.object_mask = maskFromMessage(message.object_mask);
   frame.moving_mask = maskFromMessage(message.moving_mask);
   if (message.has_noise_model)

@@ -38,7 +38,7 @@ NoiseTable::NoiseTable(const rgbd::SensorNoiseModel& model) : sigma_(ROWS * COLU
   for (int row = 0; row < ROWS; ++row)
     for (int column = 0; column < COLUMNS; ++column)
     {
-      const double z_m = (row + 0.5) / PER_METRE;
+      const double z_m = (row + 0.5) / PER_METER;
       const double theta_rad = std::min(MAX_THETA_RAD, std::acos((column + 0.5) / COLUMNS));
       sigma_[row * COLUMNS + column] = static_cast<float>(model.axialSigma_m(z_m, theta_rad));
     }

@@ -24,7 +24,7 @@ public:
   /// cos_theta in [0, 1], of the angle between normal and viewing ray; clamped at 85 deg, where the model diverges.
   float sigma_m(float z_m, float cos_theta) const
   {
-    const int row = static_cast<int>(z_m * PER_METRE);
+    const int row = static_cast<int>(z_m * PER_METER);
     const int column = static_cast<int>(cos_theta * COLUMNS);
     return sigma_[(row < 0       ? 0
                    : row >= ROWS ? ROWS - 1
@@ -42,8 +42,8 @@ public:
   }
 
 private:
-  static constexpr int PER_METRE = 100;
-  static constexpr int ROWS = 8 * PER_METRE;
+  static constexpr int PER_METER = 100;
+  static constexpr int ROWS = 8 * PER_METER;
   static constexpr int COLUMNS = 128;
   std::vector<float> sigma_;
 };

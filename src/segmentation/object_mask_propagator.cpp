@@ -169,7 +169,7 @@ private:
                       View* view) const
   {
     constexpr double MIN_SHARE_OF_OBJECT = 0.3;
-    constexpr double NEIGHBOUR_VOTES_RATIO = 0.75;
+    constexpr double NEIGHBOR_VOTES_RATIO = 0.75;
     std::vector<Part> parts;
     int inside_total = 0;
     double most_votes = 0;
@@ -190,11 +190,11 @@ private:
     view->others = view->mask.clone();
     for (const Part& part : parts)
     {
-      const bool neighbour = part.candidate && part.votes < NEIGHBOUR_VOTES_RATIO * most_votes &&
-                             standsOn(keyframe.frame, plane_camera, part.mask);
-      if (part.candidate && !neighbour)
+      const bool neighbor = part.candidate && part.votes < NEIGHBOR_VOTES_RATIO * most_votes &&
+                            standsOn(keyframe.frame, plane_camera, part.mask);
+      if (part.candidate && !neighbor)
         view->mask |= part.mask;
-      else if (!neighbour && part.inside_count >= MIN_SHARE_OF_OBJECT * inside_total)
+      else if (!neighbor && part.inside_count >= MIN_SHARE_OF_OBJECT * inside_total)
         view->mask |= part.inside;  // the object has run together with something larger
       else
         view->others |= part.mask;

@@ -11,7 +11,7 @@ namespace object_modelling::segmentation
 namespace
 {
 /// Votes of a view in which a neighbour is separate from the object; a view in which they touch has one vote.
-constexpr int NEIGHBOUR_VOTES = 2;
+constexpr int NEIGHBOR_VOTES = 2;
 }  // namespace
 
 void ObjectVolume::clear()
@@ -79,7 +79,7 @@ void ObjectVolume::removeContradicted(const rgbd::Keyframe& keyframe, const cv::
   const Eigen::Isometry3d T_camera_session = keyframe.T_session_camera.inverse();
   for (Voxel& voxel : voxels_)
   {
-    const Eigen::Vector3d p_camera = T_camera_session * centreOf(voxel);
+    const Eigen::Vector3d p_camera = T_camera_session * centerOf(voxel);
     if (voxel.last_view == views_)
       continue;
     const geometry::Projection<double> at = geometry::projectionOf(frame.camera, p_camera, 0);
@@ -89,19 +89,19 @@ void ObjectVolume::removeContradicted(const rgbd::Keyframe& keyframe, const cv::
     const rgbd::Visibility seen = rgbd::visibilityOf(at, frame.depth_m, tolerance_m);
     const bool seen_as_other =
         seen == rgbd::Visibility::ON && !others.empty() && others.at<std::uint8_t>(at.row, at.column) != 0;
-    voxel.votes_against += seen_as_other ? NEIGHBOUR_VOTES : seen == rgbd::Visibility::IN_FRONT ? 1 : 0;
+    voxel.votes_against += seen_as_other ? NEIGHBOR_VOTES : seen == rgbd::Visibility::IN_FRONT ? 1 : 0;
   }
 }
 
 bool ObjectVolume::contains(const Eigen::Vector3d& p_session) const
 {
-  const Eigen::Vector3i centre = indexOf(p_session);
-  if (occupied(centre))
+  const Eigen::Vector3i center = indexOf(p_session);
+  if (occupied(center))
     return true;
   for (int x = -1; x <= 1; ++x)
     for (int y = -1; y <= 1; ++y)
       for (int z = -1; z <= 1; ++z)
-        if ((x != 0 || y != 0 || z != 0) && occupied(centre + Eigen::Vector3i(x, y, z)))
+        if ((x != 0 || y != 0 || z != 0) && occupied(center + Eigen::Vector3i(x, y, z)))
           return true;
   return false;
 }
@@ -113,7 +113,7 @@ Eigen::Vector3d ObjectVolume::centroid() const
   for (const Voxel& voxel : voxels_)
     if (voxel.occupied())
     {
-      sum += centreOf(voxel);
+      sum += centerOf(voxel);
       ++count;
     }
   return count > 0 ? (sum / count).eval() : sum;
@@ -129,7 +129,7 @@ cv::Rect ObjectVolume::areaInView(const rgbd::Keyframe& keyframe, double margin_
   {
     if (!voxel.occupied())
       continue;
-    const Eigen::Vector3d p_camera = T_camera_session * centreOf(voxel);
+    const Eigen::Vector3d p_camera = T_camera_session * centerOf(voxel);
     if (p_camera.z() <= margin_m)
       continue;
     const Eigen::Vector2d pixel = frame.camera.project(p_camera);
@@ -159,7 +159,7 @@ Eigen::Vector3i ObjectVolume::indexOf(const Eigen::Vector3d& p_session) const
   return (p_session / voxel_size_m_).array().floor().cast<int>();
 }
 
-Eigen::Vector3d ObjectVolume::centreOf(const Voxel& voxel) const
+Eigen::Vector3d ObjectVolume::centerOf(const Voxel& voxel) const
 {
   return (voxel.index.cast<double>().array() + 0.5) * voxel_size_m_;
 }

@@ -50,7 +50,7 @@ private:
 
   static std::uint64_t key(const Eigen::Vector3i& index);
   Eigen::Vector3i indexOf(const Eigen::Vector3d& p_session) const;
-  Eigen::Vector3d centreOf(const Voxel& voxel) const;
+  Eigen::Vector3d centerOf(const Voxel& voxel) const;
   bool occupied(const Eigen::Vector3i& index) const;
 
   double voxel_size_m_;

@@ -123,7 +123,7 @@ private:
     queue_.push_back(v * width_ + u);
   }
 
-  void tryNeighbours(int index, const Region& region)
+  void tryNeighbors(int index, const Region& region)
   {
     const int u = index % width_, v = index / width_;
     if (u > 0)
@@ -160,7 +160,7 @@ private:
         region.setPlane(grown.plane);
         next_refit = 2 * grown.moments.count;
       }
-      tryNeighbours(queue_[head], region);
+      tryNeighbors(queue_[head], region);
     }
     if (grown.moments.count >= options_.min_pixels && grown.moments.fit(Eigen::Vector3d::Zero(), &grown.plane))
     {
@@ -181,7 +181,7 @@ private:
       if (labels_.at<std::int16_t>(index / width_, index % width_) == label)
         queue_.push_back(index);
     for (std::size_t head = 0; head < queue_.size(); ++head)
-      tryNeighbours(queue_[head], region);
+      tryNeighbors(queue_[head], region);
     grown->moments.fit(Eigen::Vector3d::Zero(), &grown->plane);
   }
 

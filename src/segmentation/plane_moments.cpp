@@ -28,15 +28,15 @@ bool PlaneMoments::fit(const Eigen::Vector3d& viewpoint, geometry::Plane* plane)
 {
   if (count < 3 || !(weight > 0))
     return false;
-  const Eigen::Vector3d centre = mean();
-  const Eigen::Matrix3d covariance = sum_of_squares / weight - centre * centre.transpose();
+  const Eigen::Vector3d center = mean();
+  const Eigen::Matrix3d covariance = sum_of_squares / weight - center * center.transpose();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(covariance);
   const Eigen::Vector3d& spread = solver.eigenvalues();
   if (!spread.allFinite() || spread(1) <= 1e-6 * spread(2))
     return false;
   plane->normal = solver.eigenvectors().col(0).normalized();
-  plane->offset_m = -plane->normal.dot(centre);
+  plane->offset_m = -plane->normal.dot(center);
   if (plane->signedDistance_m(viewpoint) < 0)
   {
     plane->normal = -plane->normal;

@@ -58,16 +58,16 @@ base::Result<int> selectByPoint(const SceneSegmentation& segmentation, const Eig
     return { { base::StatusCode::INVALID_ARGUMENT, "a point and a margin to select by must be finite numbers" }, -1 };
   // Boxes of neighbours may overlap: of equal distances the nearer centre decides.
   const Hypothesis* best = nullptr;
-  double best_distance_m = std::numeric_limits<double>::infinity(), best_to_centre_m = best_distance_m;
+  double best_distance_m = std::numeric_limits<double>::infinity(), best_to_center_m = best_distance_m;
   for (const Hypothesis& hypothesis : segmentation.hypotheses)
   {
     const double distance_m = distanceToBox_m(hypothesis.box_camera, p_camera);
-    const double to_centre_m = (hypothesis.centroid_camera - p_camera).norm();
-    if (distance_m < best_distance_m || (distance_m == best_distance_m && to_centre_m < best_to_centre_m))
+    const double to_center_m = (hypothesis.centroid_camera - p_camera).norm();
+    if (distance_m < best_distance_m || (distance_m == best_distance_m && to_center_m < best_to_center_m))
     {
       best = &hypothesis;
       best_distance_m = distance_m;
-      best_to_centre_m = to_centre_m;
+      best_to_center_m = to_center_m;
     }
   }
   if (best_distance_m > margin_m)
@@ -79,11 +79,11 @@ base::Result<int> selectByPoint(const SceneSegmentation& segmentation, const Eig
 double clearness(const Hypothesis& hypothesis, const geometry::PinholeCamera& camera)
 {
   const Eigen::Vector2d pixel = camera.project(hypothesis.centroid_camera);
-  const Eigen::Vector2d off_centre((pixel.x() - (camera.width - 1) / 2.0) / camera.width,
+  const Eigen::Vector2d off_center((pixel.x() - (camera.width - 1) / 2.0) / camera.width,
                                    (pixel.y() - (camera.height - 1) / 2.0) / camera.width);
   constexpr double REACH = 0.25;  // of the image's width
   const double size = std::sqrt(hypothesis.pixel_count / (static_cast<double>(camera.width) * camera.height));
-  return size * std::exp(-off_centre.squaredNorm() / (2 * REACH * REACH)) * (touchesBorder(hypothesis.mask) ? 0.4 : 1);
+  return size * std::exp(-off_center.squaredNorm() / (2 * REACH * REACH)) * (touchesBorder(hypothesis.mask) ? 0.4 : 1);
 }
 
 base::Result<int> selectAutomatically(const SceneSegmentation& segmentation, const geometry::PinholeCamera& camera)

@@ -11,7 +11,7 @@ namespace object_modelling::segmentation
 namespace
 {
 constexpr int MAX_GAP_PX = 2;
-constexpr int MIN_NEIGHBOURS = 3;
+constexpr int MIN_NEIGHBORS = 3;
 constexpr int MAX_FOOT_PX = 5;
 
 bool connected(float z_a, float z_b, float ratio)
@@ -22,11 +22,11 @@ bool connected(float z_a, float z_b, float ratio)
 bool flying(const cv::Mat& depth_m, int u, int v, float ratio)
 {
   const float z = depth_m.at<float>(v, u);
-  int neighbours = 0;
+  int neighbors = 0;
   for (int y = std::max(0, v - 1); y <= std::min(depth_m.rows - 1, v + 1); ++y)
     for (int x = std::max(0, u - 1); x <= std::min(depth_m.cols - 1, u + 1); ++x)
-      neighbours += connected(z, depth_m.at<float>(y, x), ratio);
-  return neighbours - 1 < MIN_NEIGHBOURS;  // the pixel has counted itself
+      neighbors += connected(z, depth_m.at<float>(y, x), ratio);
+  return neighbors - 1 < MIN_NEIGHBORS;  // the pixel has counted itself
 }
 
 /// Labels of the HIGH pixels spread over LOW ones, a few pixels far: the last millimetres above the support.

@@ -10,7 +10,7 @@ namespace object_modelling::segmentation
 namespace
 {
 /// The point in the middle of what the middle of the view shows; by depth, so that it lies on a surface.
-bool viewCentre(const rgbd::Frame& frame, Eigen::Vector3d* p_camera)
+bool viewCenter(const rgbd::Frame& frame, Eigen::Vector3d* p_camera)
 {
   const int width = frame.depth_m.cols, height = frame.depth_m.rows;
   std::vector<std::pair<float, int>> depths;
@@ -31,8 +31,8 @@ bool viewCentre(const rgbd::Frame& frame, Eigen::Vector3d* p_camera)
 
 std::vector<int> rankSupports(const WorkingImage& image, const GrownPlanes& planes, double max_height_m)
 {
-  Eigen::Vector3d p_centre;
-  const bool has_centre = viewCentre(image.frame, &p_centre);
+  Eigen::Vector3d p_center;
+  const bool has_center = viewCenter(image.frame, &p_center);
   std::vector<std::pair<double, int>> ranked;
   for (std::size_t i = 0; i < planes.planes.size(); ++i)
   {
@@ -41,13 +41,13 @@ std::vector<int> rankSupports(const WorkingImage& image, const GrownPlanes& plan
     // leaves a camera that looks straight down, or is held upright, its table.
     const double up = -plane.normal.y();
     double score = planes.planes[i].moments.count * std::clamp((up + 0.35) / 0.6, 0.03, 1.0);
-    if (has_centre)
+    if (has_center)
     {
-      const double height_m = plane.signedDistance_m(p_centre);
-      const double tolerance_m = 0.01 + 0.02 * p_centre.z();
+      const double height_m = plane.signedDistance_m(p_center);
+      const double tolerance_m = 0.01 + 0.02 * p_center.z();
       if (height_m < -tolerance_m || height_m > max_height_m)
         score *= 0.1;
-      else if (!SupportExtent(image, planes, static_cast<int>(i)).carries(p_centre, tolerance_m))
+      else if (!SupportExtent(image, planes, static_cast<int>(i)).carries(p_center, tolerance_m))
         score *= 0.3;
     }
     ranked.emplace_back(-score, static_cast<int>(i));

@@ -15,7 +15,7 @@ namespace
 /// Distance of every vertex along edges to the nearest one that has this mark, as far as `reach_m` (Dijkstra 1959);
 /// infinite beyond.
 std::vector<double> distances_m(const mesh::TriangleMesh& mesh,
-                                const std::vector<std::vector<std::uint32_t>>& neighbours,
+                                const std::vector<std::vector<std::uint32_t>>& neighbors,
                                 const std::vector<char>& marks, bool mark, double reach_m)
 {
   using Entry = std::pair<double, std::uint32_t>;
@@ -33,7 +33,7 @@ std::vector<double> distances_m(const mesh::TriangleMesh& mesh,
     open.pop();
     if (so_far > distance[i])
       continue;
-    for (const std::uint32_t j : neighbours[i])
+    for (const std::uint32_t j : neighbors[i])
     {
       const double through = so_far + (mesh.vertices[j] - mesh.vertices[i]).norm();
       if (through > reach_m || through >= distance[j])
@@ -46,10 +46,10 @@ std::vector<double> distances_m(const mesh::TriangleMesh& mesh,
 }
 
 /// Marks all within the reach of a vertex that has this mark.
-std::vector<char> grown(const mesh::TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& neighbours,
+std::vector<char> grown(const mesh::TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& neighbors,
                         const std::vector<char>& marks, bool mark, double reach_m)
 {
-  const std::vector<double> distance = distances_m(mesh, neighbours, marks, mark, reach_m);
+  const std::vector<double> distance = distances_m(mesh, neighbors, marks, mark, reach_m);
   std::vector<char> result(marks.size());
   for (std::size_t i = 0; i < marks.size(); ++i)
     result[i] = static_cast<char>((distance[i] <= reach_m) == mark);
@@ -59,8 +59,8 @@ std::vector<char> grown(const mesh::TriangleMesh& mesh, const std::vector<std::v
 
 std::vector<char> closedMarks(const mesh::TriangleMesh& mesh, const std::vector<char>& marks, double reach_m)
 {
-  const auto neighbours = mesh::vertexNeighbours(mesh);
-  std::vector<char> result = grown(mesh, neighbours, grown(mesh, neighbours, marks, true, reach_m), false, reach_m);
+  const auto neighbors = mesh::vertexNeighbors(mesh);
+  std::vector<char> result = grown(mesh, neighbors, grown(mesh, neighbors, marks, true, reach_m), false, reach_m);
   for (std::size_t i = 0; i < marks.size(); ++i)  // lengths along edges are not quite the same both ways
     result[i] = static_cast<char>(result[i] || marks[i]);
   return result;
@@ -68,8 +68,8 @@ std::vector<char> closedMarks(const mesh::TriangleMesh& mesh, const std::vector<
 
 std::vector<char> openedMarks(const mesh::TriangleMesh& mesh, const std::vector<char>& marks, double reach_m)
 {
-  const auto neighbours = mesh::vertexNeighbours(mesh);
-  std::vector<char> result = grown(mesh, neighbours, grown(mesh, neighbours, marks, false, reach_m), true, reach_m);
+  const auto neighbors = mesh::vertexNeighbors(mesh);
+  std::vector<char> result = grown(mesh, neighbors, grown(mesh, neighbors, marks, false, reach_m), true, reach_m);
   for (std::size_t i = 0; i < marks.size(); ++i)
     result[i] = static_cast<char>(result[i] && marks[i]);
   return result;
@@ -77,11 +77,11 @@ std::vector<char> openedMarks(const mesh::TriangleMesh& mesh, const std::vector<
 
 void closeTinyHoles(std::size_t max_edges, mesh::TriangleMesh* mesh)
 {
-  const mesh::TriangleNeighbours neighbours = mesh::triangleNeighbours(*mesh);
+  const mesh::TriangleNeighbors neighbors = mesh::triangleNeighbors(*mesh);
   std::map<std::uint32_t, std::uint32_t> next;  // along the rims, as their triangles run
   for (std::size_t t = 0; t < mesh->triangles.size(); ++t)
     for (int i = 0; i < 3; ++i)
-      if (neighbours[t][i] < 0)
+      if (neighbors[t][i] < 0)
         next[mesh->triangles[t][i]] = mesh->triangles[t][(i + 1) % 3];
   while (!next.empty())
   {

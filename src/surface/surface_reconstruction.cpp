@@ -18,7 +18,7 @@ namespace
 {
 constexpr std::size_t MIN_POINTS = 50;
 constexpr std::size_t VOTING_NEIGHBORS = 24;
-constexpr std::size_t COLOR_NEIGHBOURS = 4;
+constexpr std::size_t COLOR_NEIGHBORS = 4;
 /// Surface this near to a fused point is seen even at the rim of the cloud; in units of the resolution.
 constexpr float RIM_RATIO = 1.f;
 constexpr double CELL_RATIO = 0.5;  ///< of the resolution: between the two sides of a thin wall there must be cells
@@ -35,12 +35,12 @@ constexpr int STAGES = 4;
 
 /// Largest angle (rad) about `normal` through which no neighbour lies, seen from `center`.
 float largestGap_rad(const Eigen::Vector3f& center, const Eigen::Vector3f& normal,
-                     const std::vector<Eigen::Vector3f>& neighbours)
+                     const std::vector<Eigen::Vector3f>& neighbors)
 {
   const Eigen::Vector3f e1 = normal.unitOrthogonal(), e2 = normal.cross(e1);
   std::vector<float> angles_rad;
-  for (const Eigen::Vector3f& neighbour : neighbours)
-    angles_rad.push_back(std::atan2(e2.dot(neighbour - center), e1.dot(neighbour - center)));
+  for (const Eigen::Vector3f& neighbor : neighbors)
+    angles_rad.push_back(std::atan2(e2.dot(neighbor - center), e1.dot(neighbor - center)));
   if (angles_rad.empty())
     return static_cast<float>(2 * M_PI);
   std::sort(angles_rad.begin(), angles_rad.end());
@@ -55,39 +55,39 @@ float largestGap_rad(const Eigen::Vector3f& center, const Eigen::Vector3f& norma
 bool supported(const Eigen::Vector3f& vertex, const Eigen::Vector3f& normal, const fusion::FusedCloud& cloud,
                const geometry::PointIndex& index, const SurfaceOptions& options)
 {
-  std::vector<geometry::PointIndex::Neighbour> neighbours;
-  index.nearest(vertex, VOTING_NEIGHBORS, &neighbours);
+  std::vector<geometry::PointIndex::Neighbor> neighbors;
+  index.nearest(vertex, VOTING_NEIGHBORS, &neighbors);
   const double near_m = RIM_RATIO * options.resolution_m;
   std::vector<Eigen::Vector3f> around;
-  for (const geometry::PointIndex::Neighbour& neighbour : neighbours)
+  for (const geometry::PointIndex::Neighbor& neighbor : neighbors)
   {
-    if (neighbour.squared_distance > options.max_support_distance_m * options.max_support_distance_m)
+    if (neighbor.squared_distance > options.max_support_distance_m * options.max_support_distance_m)
       break;
-    if (cloud.normals[neighbour.index].dot(normal) <= 0)
+    if (cloud.normals[neighbor.index].dot(normal) <= 0)
       continue;
-    if (neighbour.squared_distance < near_m * near_m)
+    if (neighbor.squared_distance < near_m * near_m)
       return true;
-    around.push_back(cloud.points[neighbour.index]);
+    around.push_back(cloud.points[neighbor.index]);
   }
   return largestGap_rad(vertex, normal, around) < M_PI;
 }
 
-void colourFromCloud(const fusion::FusedCloud& cloud, const geometry::PointIndex& index, mesh::TriangleMesh* mesh)
+void colorFromCloud(const fusion::FusedCloud& cloud, const geometry::PointIndex& index, mesh::TriangleMesh* mesh)
 {
   mesh->colors.resize(mesh->vertices.size());
 #pragma omp parallel for schedule(static)
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(mesh->vertices.size()); ++i)
   {
-    std::vector<geometry::PointIndex::Neighbour> neighbours;
-    index.nearest(mesh->vertices[i], COLOR_NEIGHBOURS, &neighbours);
+    std::vector<geometry::PointIndex::Neighbor> neighbors;
+    index.nearest(mesh->vertices[i], COLOR_NEIGHBORS, &neighbors);
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     float weight = 0;
-    for (const geometry::PointIndex::Neighbour& neighbour : neighbours)
+    for (const geometry::PointIndex::Neighbor& neighbor : neighbors)
     {
       // Points of the other side of a thin wall count only where there is no other.
-      const bool same_side = cloud.normals[neighbour.index].dot(mesh->normals[i]) > 0;
-      const float w = (same_side ? 1.f : 1e-6f) / (neighbour.squared_distance + 1e-9f);
-      sum += w * cloud.colors[neighbour.index].cast<float>();
+      const bool same_side = cloud.normals[neighbor.index].dot(mesh->normals[i]) > 0;
+      const float w = (same_side ? 1.f : 1e-6f) / (neighbor.squared_distance + 1e-9f);
+      sum += w * cloud.colors[neighbor.index].cast<float>();
       weight += w;
     }
     mesh->colors[i] = (sum / weight + Eigen::Vector3f::Constant(0.5f)).cast<std::uint8_t>();
@@ -171,7 +171,7 @@ SurfaceResult reconstructSurface(const fusion::FusedCloud& cloud, const std::opt
   }
   mesh::computeNormals(&mesh);
   if (cloud.colors.size() == cloud.size())
-    colourFromCloud(cloud, index, &mesh);
+    colorFromCloud(cloud, index, &mesh);
   control.report("mesh", STAGES, STAGES);
   result.mesh = std::move(mesh);
   return result;

@@ -8,7 +8,7 @@ namespace object_modelling::surface
 namespace
 {
 constexpr std::size_t WALL_NEIGHBORS = 32;
-constexpr std::size_t BACK_NEIGHBOURS = 8;
+constexpr std::size_t BACK_NEIGHBORS = 8;
 constexpr float OPPOSITE_COSINE = -0.5f;  ///< between the normals of the two sides
 constexpr float SAME_SIDE_COSINE = 0.3f;
 /// How far noise may bring the sides past each other; surfaces that face each other across more are two.
@@ -18,15 +18,15 @@ constexpr int SMOOTHINGS = 3;  ///< each over the nearest points of the same sid
 /// Distance to the other side behind a point; `none_m` without one nearer than that.
 float thickness_m(std::size_t i, const std::vector<Eigen::Vector3f>& points,
                   const std::vector<Eigen::Vector3f>& normals,
-                  const std::vector<geometry::PointIndex::Neighbour>& neighbours, float none_m)
+                  const std::vector<geometry::PointIndex::Neighbor>& neighbors, float none_m)
 {
   float thinnest_m = none_m;
-  for (const geometry::PointIndex::Neighbour& neighbour : neighbours)
+  for (const geometry::PointIndex::Neighbor& neighbor : neighbors)
   {
     const Eigen::Vector3f& normal = normals[i];
-    if (normals[neighbour.index].dot(normal) > OPPOSITE_COSINE)
+    if (normals[neighbor.index].dot(normal) > OPPOSITE_COSINE)
       continue;
-    const Eigen::Vector3f to_other = points[neighbour.index] - points[i];
+    const Eigen::Vector3f to_other = points[neighbor.index] - points[i];
     const float behind_m = -to_other.dot(normal);
     const float beside_m = (to_other + behind_m * normal).norm();
     if (behind_m > -PAST_RATIO * none_m && beside_m < none_m)
@@ -41,13 +41,13 @@ std::vector<float> spreadOfWalls_m(const std::vector<Eigen::Vector3f>& points,
                                    float min_thickness_m)
 {
   const auto count = static_cast<std::int64_t>(points.size());
-  std::vector<std::vector<geometry::PointIndex::Neighbour>> neighbours(points.size());
+  std::vector<std::vector<geometry::PointIndex::Neighbor>> neighbors(points.size());
   std::vector<float> spread_m(points.size());
 #pragma omp parallel for schedule(static)
   for (std::int64_t i = 0; i < count; ++i)
   {
-    index.nearest(points[i], WALL_NEIGHBORS, &neighbours[i]);
-    spread_m[i] = 0.5f * (min_thickness_m - thickness_m(i, points, normals, neighbours[i], min_thickness_m));
+    index.nearest(points[i], WALL_NEIGHBORS, &neighbors[i]);
+    spread_m[i] = 0.5f * (min_thickness_m - thickness_m(i, points, normals, neighbors[i], min_thickness_m));
   }
   std::vector<float> smooth_m(points.size());
   for (int round = 0; round < SMOOTHINGS; ++round)
@@ -56,10 +56,10 @@ std::vector<float> spreadOfWalls_m(const std::vector<Eigen::Vector3f>& points,
     for (std::int64_t i = 0; i < count; ++i)
     {
       float sum_m = 0, same_side = 0;
-      for (const geometry::PointIndex::Neighbour& neighbour : neighbours[i])
-        if (normals[neighbour.index].dot(normals[i]) > SAME_SIDE_COSINE)
+      for (const geometry::PointIndex::Neighbor& neighbor : neighbors[i])
+        if (normals[neighbor.index].dot(normals[i]) > SAME_SIDE_COSINE)
         {
-          sum_m += spread_m[neighbour.index];
+          sum_m += spread_m[neighbor.index];
           ++same_side;
         }
       smooth_m[i] = same_side > 0 ? sum_m / same_side : spread_m[i];
@@ -78,17 +78,17 @@ void takeSpreadBack(const std::vector<Eigen::Vector3f>& spread_points, const std
 #pragma omp parallel for schedule(static)
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(mesh->vertices.size()); ++i)
   {
-    std::vector<geometry::PointIndex::Neighbour> neighbours;
-    index.nearest(mesh->vertices[i], BACK_NEIGHBOURS, &neighbours);
+    std::vector<geometry::PointIndex::Neighbor> neighbors;
+    index.nearest(mesh->vertices[i], BACK_NEIGHBORS, &neighbors);
     Eigen::Vector3f moved = Eigen::Vector3f::Zero();
     float total = 0;
-    for (const geometry::PointIndex::Neighbour& neighbour : neighbours)
+    for (const geometry::PointIndex::Neighbor& neighbor : neighbors)
     {
-      const Eigen::Vector3f& normal = normals[neighbour.index];
+      const Eigen::Vector3f& normal = normals[neighbor.index];
       if (normal.dot(mesh->normals[i]) <= 0)
         continue;
-      const float weight = 1 / (neighbour.squared_distance + 1e-9f);
-      moved += weight * spread_m[neighbour.index] * normal;
+      const float weight = 1 / (neighbor.squared_distance + 1e-9f);
+      moved += weight * spread_m[neighbor.index] * normal;
       total += weight;
     }
     if (total > 0)

@@ -73,11 +73,11 @@ struct Tie
 
 std::vector<Tie> tiesOf(const mesh::TriangleMesh& mesh)
 {
-  const std::vector<std::vector<std::uint32_t>> neighbours = mesh::vertexNeighbours(mesh);
+  const std::vector<std::vector<std::uint32_t>> neighbors = mesh::vertexNeighbors(mesh);
   std::vector<Tie> ties;
   double length_m = 0;
-  for (std::uint32_t i = 0; i < neighbours.size(); ++i)
-    for (const std::uint32_t j : neighbours[i])
+  for (std::uint32_t i = 0; i < neighbors.size(); ++i)
+    for (const std::uint32_t j : neighbors[i])
       if (j > i)
       {
         const double bend = 1 - static_cast<double>(mesh.normals[i].dot(mesh.normals[j]));

@@ -29,7 +29,7 @@ const std::array<Eigen::Vector3f, 6> DIRECTIONS{ Eigen::Vector3f(1, 0, 0),  Eige
 using Labels = std::vector<int>;
 
 /// Connected triangles of one label; each group ascending, groups by their first triangle.
-std::vector<std::vector<int>> connectedGroups(const mesh::TriangleNeighbours& neighbours, const Labels& labels,
+std::vector<std::vector<int>> connectedGroups(const mesh::TriangleNeighbors& neighbors, const Labels& labels,
                                               const std::vector<int>& triangles)
 {
   std::vector<char> pending(labels.size(), 0);
@@ -43,11 +43,11 @@ std::vector<std::vector<int>> connectedGroups(const mesh::TriangleNeighbours& ne
     std::vector<int> group{ seed };
     pending[seed] = 0;
     for (std::size_t next = 0; next < group.size(); ++next)
-      for (const int neighbour : neighbours[group[next]])
-        if (neighbour >= 0 && pending[neighbour] && labels[neighbour] == labels[seed])
+      for (const int neighbor : neighbors[group[next]])
+        if (neighbor >= 0 && pending[neighbor] && labels[neighbor] == labels[seed])
         {
-          pending[neighbour] = 0;
-          group.push_back(neighbour);
+          pending[neighbor] = 0;
+          group.push_back(neighbor);
         }
     std::sort(group.begin(), group.end());
     groups.push_back(std::move(group));
@@ -55,7 +55,7 @@ std::vector<std::vector<int>> connectedGroups(const mesh::TriangleNeighbours& ne
   return groups;
 }
 
-std::vector<Eigen::Vector3f> smoothed(std::vector<Eigen::Vector3f> normals, const mesh::TriangleNeighbours& neighbours)
+std::vector<Eigen::Vector3f> smoothed(std::vector<Eigen::Vector3f> normals, const mesh::TriangleNeighbors& neighbors)
 {
   std::vector<Eigen::Vector3f> next(normals.size());
   for (int pass = 0; pass < NORMAL_SMOOTHING_PASSES; ++pass)
@@ -63,9 +63,9 @@ std::vector<Eigen::Vector3f> smoothed(std::vector<Eigen::Vector3f> normals, cons
     for (std::size_t t = 0; t < normals.size(); ++t)
     {
       next[t] = normals[t];
-      for (const int neighbour : neighbours[t])
-        if (neighbour >= 0)
-          next[t] += normals[neighbour];
+      for (const int neighbor : neighbors[t])
+        if (neighbor >= 0)
+          next[t] += normals[neighbor];
       next[t] /= std::max(1e-6f, next[t].norm());
     }
     normals.swap(next);
@@ -74,9 +74,9 @@ std::vector<Eigen::Vector3f> smoothed(std::vector<Eigen::Vector3f> normals, cons
 }
 
 /// Iterated conditional modes on cosine to the direction plus the length of borders.
-Labels labelDirections(const std::vector<Eigen::Vector3f>& normals, const mesh::TriangleNeighbours& neighbours)
+Labels labelDirections(const std::vector<Eigen::Vector3f>& normals, const mesh::TriangleNeighbors& neighbors)
 {
-  const std::vector<Eigen::Vector3f> smooth = smoothed(normals, neighbours);
+  const std::vector<Eigen::Vector3f> smooth = smoothed(normals, neighbors);
   Labels labels(normals.size());
   for (int pass = 0; pass <= SMOOTHING_PASSES; ++pass)
     for (std::size_t t = 0; t < normals.size(); ++t)
@@ -87,8 +87,8 @@ Labels labelDirections(const std::vector<Eigen::Vector3f>& normals, const mesh::
       {
         const bool flat = normals[t].dot(DIRECTIONS[d]) >= MIN_CHART_COSINE;
         float cost = -smooth[t].dot(DIRECTIONS[d]) + (flat ? 0.f : 2.f);
-        for (const int neighbour : neighbours[t])
-          if (pass > 0 && neighbour >= 0 && labels[neighbour] != d)
+        for (const int neighbor : neighbors[t])
+          if (pass > 0 && neighbor >= 0 && labels[neighbor] != d)
             cost += BORDER_COST;
         if (cost < best)
         {
@@ -102,19 +102,19 @@ Labels labelDirections(const std::vector<Eigen::Vector3f>& normals, const mesh::
 }
 
 /// Gives small groups to the direction of a neighbour in which all of their triangles still lie flat.
-void mergeSmallGroups(const std::vector<Eigen::Vector3f>& normals, const mesh::TriangleNeighbours& neighbours,
+void mergeSmallGroups(const std::vector<Eigen::Vector3f>& normals, const mesh::TriangleNeighbors& neighbors,
                       const std::vector<int>& all, Labels* labels)
 {
   for (int pass = 0; pass < MERGING_PASSES; ++pass)
-    for (const std::vector<int>& group : connectedGroups(neighbours, *labels, all))
+    for (const std::vector<int>& group : connectedGroups(neighbors, *labels, all))
     {
       if (group.size() >= SMALL_CHART)
         continue;
       std::array<int, DIRECTIONS.size()> shared_edges{};
       for (const int t : group)
-        for (const int neighbour : neighbours[t])
-          if (neighbour >= 0 && (*labels)[neighbour] != (*labels)[t])
-            ++shared_edges[(*labels)[neighbour]];
+        for (const int neighbor : neighbors[t])
+          if (neighbor >= 0 && (*labels)[neighbor] != (*labels)[t])
+            ++shared_edges[(*labels)[neighbor]];
       int best = -1;
       for (int d = 0; d < static_cast<int>(DIRECTIONS.size()); ++d)
       {
@@ -222,17 +222,17 @@ std::vector<Chart> makeCharts(const mesh::TriangleMesh& mesh, double raster_m)
   std::vector<Eigen::Vector3f> normals(mesh.triangles.size());
   for (std::size_t t = 0; t < normals.size(); ++t)
     normals[t] = mesh::triangleNormal(mesh, t);
-  const mesh::TriangleNeighbours neighbours = mesh::triangleNeighbours(mesh);
+  const mesh::TriangleNeighbors neighbors = mesh::triangleNeighbors(mesh);
   std::vector<int> pending(mesh.triangles.size());
   std::iota(pending.begin(), pending.end(), 0);
-  Labels labels = labelDirections(normals, neighbours);
-  mergeSmallGroups(normals, neighbours, pending, &labels);
+  Labels labels = labelDirections(normals, neighbors);
+  mergeSmallGroups(normals, neighbors, pending, &labels);
 
   std::vector<Chart> charts;
   while (!pending.empty())
   {
     std::vector<int> rest;
-    for (const std::vector<int>& group : connectedGroups(neighbours, labels, pending))
+    for (const std::vector<int>& group : connectedGroups(neighbors, labels, pending))
     {
       const std::size_t before = rest.size();
       Chart chart = layOut(mesh, normals, group, raster_m, &rest);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "atlas.h"
-#include "colour_fill.h"
+#include "color_fill.h"
 #include "exposure.h"
 #include "mesh_charts.h"
 #include "object_modelling/base/options.h"
@@ -82,13 +82,13 @@ void measureSeams(const Paint& paint, const Atlas& atlas, TextureResult* result)
 {
   const mesh::TriangleMesh& mesh = paint.mesh;
   const std::vector<int> best = bestViews(mesh, paint.weights, paint.views.size());
-  const mesh::TriangleNeighbours neighbours = mesh::triangleNeighbours(mesh);
+  const mesh::TriangleNeighbors neighbors = mesh::triangleNeighbors(mesh);
   double before = 0, after = 0;
   std::size_t view_borders = 0, chart_borders = 0;
   for (std::size_t t = 0; t < best.size(); ++t)
     for (int k = 0; k < 3; ++k)
     {
-      const int other = neighbours[t][k];
+      const int other = neighbors[t][k];
       if (other <= static_cast<int>(t))
         continue;
       const std::uint32_t a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];

@@ -154,7 +154,7 @@ void outvoteOutliers(const mesh::TriangleMesh& mesh, const std::vector<TextureVi
 
 void fadeAtBorders(const mesh::TriangleMesh& mesh, std::size_t view_count, VertexWeights* weights)
 {
-  const std::vector<std::vector<std::uint32_t>> neighbours = mesh::vertexNeighbours(mesh);
+  const std::vector<std::vector<std::uint32_t>> neighbors = mesh::vertexNeighbors(mesh);
   std::vector<std::vector<float>> by_view(view_count, std::vector<float>(mesh.vertices.size(), 0));
   for (std::size_t i = 0; i < weights->size(); ++i)
     for (const VertexView& seen : (*weights)[i])
@@ -169,9 +169,9 @@ void fadeAtBorders(const mesh::TriangleMesh& mesh, std::size_t view_count, Verte
       for (std::size_t i = 0; i < weight.size(); ++i)
       {
         float sum = 0;
-        for (const std::uint32_t neighbour : neighbours[i])
-          sum += weight[neighbour];
-        const auto count = static_cast<float>(std::max<std::size_t>(1, neighbours[i].size()));
+        for (const std::uint32_t neighbor : neighbors[i])
+          sum += weight[neighbor];
+        const auto count = static_cast<float>(std::max<std::size_t>(1, neighbors[i].size()));
         faded[i] = std::min(weight[i], sum / count);
       }
       weight.swap(faded);

@@ -57,7 +57,7 @@ rgbd::Frame MapKeyframe::wholeFrame() const
 {
   rgbd::Frame whole = frame;
   if (!compact_depth_.empty())
-    whole.depth_m = rgbd::depthInMetres(compact_depth_, COMPACT_DEPTH_UNIT_M);
+    whole.depth_m = rgbd::depthInMeters(compact_depth_, COMPACT_DEPTH_UNIT_M);
   return whole;
 }
 

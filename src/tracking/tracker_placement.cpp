@@ -38,7 +38,7 @@ std::optional<registration::QuadraticTerm> CameraTracker::Implementation::predic
 {
   if (!T_robot_camera_ || !T_robot_camera_last_)
     return std::nullopt;
-  return predictionTerm(geometry::normalised(*motion_.last() * T_robot_camera_last_->inverse() * *T_robot_camera_),
+  return predictionTerm(geometry::normalized(*motion_.last() * T_robot_camera_last_->inverse() * *T_robot_camera_),
                         last_covariance_,
                         robotMotionCovariance(options_.robot_translation_sigma_m, options_.robot_rotation_sigma_rad));
 }

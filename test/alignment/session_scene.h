@@ -28,8 +28,8 @@ protected:
           R.normalized(), { 0.1 * normal(random), 0.1 * normal(random), 0.8 + 0.1 * normal(random) }));
       registration::PartialModel part;
       part.session_id = nameOf(i);
-      const Eigen::Vector3f centre = T_session_object_.back().translation().cast<float>();
-      part.points = { centre - Eigen::Vector3f::Constant(0.05F), centre + Eigen::Vector3f::Constant(0.05F) };
+      const Eigen::Vector3f center = T_session_object_.back().translation().cast<float>();
+      part.points = { center - Eigen::Vector3f::Constant(0.05F), center + Eigen::Vector3f::Constant(0.05F) };
       parts_.push_back(part);
     }
   }

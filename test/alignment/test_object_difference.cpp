@@ -71,7 +71,7 @@ TEST(ObjectDifference, IsTheSameEitherWay)
   EXPECT_NEAR(one.unknown_ratio, other.unknown_ratio, 1e-3);
 }
 
-TEST(ObjectDifference, MeasuresColoursThatMeet)
+TEST(ObjectDifference, MeasuresColorsThatMeet)
 {
   // Half turned, each half meets the other: all points differ by 0.4 but those at the border, whose colour is blurred.
   const registration::PartialModel a =

@@ -63,9 +63,9 @@ void expectNear(const PairAlignment& found, const Eigen::Isometry3d& T_a_b, doub
 {
   ASSERT_TRUE(found.accepted) << found.reason;
   const Eigen::Isometry3d off = T_a_b.inverse() * found.candidates.front().T_a_b;
-  const Eigen::Vector3d centre(0, 0, height_b_m / 2);
+  const Eigen::Vector3d center(0, 0, height_b_m / 2);
   EXPECT_LT(geometry::rotationAngle_rad(off), 1.5 * M_PI / 180);
-  EXPECT_LT((off * centre - centre).norm(), 0.0015);
+  EXPECT_LT((off * center - center).norm(), 0.0015);
 }
 
 PairAlignment align(const registration::PartialModel& a, const registration::PartialModel& b,
@@ -114,7 +114,7 @@ TEST_F(PairAlignmentOfABox, FindsItInTheSameRestingPoseIfThatMayBe)
   EXPECT_NE(unasked.reason.find("not been turned over"), std::string::npos) << unasked.reason;
 }
 
-TEST_F(PairAlignmentOfABox, TakesAnyEquivalentPoseWithoutColour)
+TEST_F(PairAlignmentOfABox, TakesAnyEquivalentPoseWithoutColor)
 {
   const PairAlignment found =
       align(scanned("up", box_, upright_, SIZE_M.z(), false), scanned("side", box_, lying_, SIZE_M.y(), false));

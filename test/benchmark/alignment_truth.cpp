@@ -148,10 +148,10 @@ CandidateErrors errorsOf(const Eigen::Isometry3d& T_a_b, const registration::Par
                          const mesh::ReferenceSurface& surface)
 {
   const Eigen::Isometry3d T_a_b_true = truth_a.T_session_object * truth_b.T_session_object.inverse();
-  const Eigen::Vector3d centre = b.centre().cast<double>();
+  const Eigen::Vector3d center = b.center().cast<double>();
   CandidateErrors errors;
   errors.rotation_deg = 180 / M_PI * geometry::rotationAngle_rad(T_a_b_true.inverse() * T_a_b);
-  errors.translation_mm = 1e3 * (T_a_b * centre - T_a_b_true * centre).norm();
+  errors.translation_mm = 1e3 * (T_a_b * center - T_a_b_true * center).norm();
   errors.mesh_distance_mm = meshDistance_mm(b.points, truth_a.T_session_object.inverse() * T_a_b, surface);
   return errors;
 }

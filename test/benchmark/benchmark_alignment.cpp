@@ -34,7 +34,7 @@ struct Arguments
 {
   std::vector<std::string> folders;
   std::string cache, json, parts;
-  bool grey = false, cross = false, growth = false;
+  bool gray = false, cross = false, growth = false;
   std::size_t together = 0;  ///< sessions of an object that are aligned together, at least; 0: pair by pair
   int arcs = 0;              ///< parts of each session, of a run of its keyframes each; 0: one of all
   std::uint64_t seed = 1;
@@ -143,11 +143,11 @@ SessionRow prepareSession(const std::string& folder, int arc, const Arguments& a
 /// Tells what the search missed from what the measure did not recognise.
 void refineTruth(const SessionRow& a, const SessionRow& b, const Arguments& arguments, Surfaces* surfaces, PairRow* row)
 {
-  const Eigen::Vector3d centre = b.part.centre().cast<double>();
+  const Eigen::Vector3d center = b.part.center().cast<double>();
   std::vector<alignment::PointPair> same;
   for (const Eigen::Vector3d& off :
        { Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.1, 0, 0), Eigen::Vector3d(0, 0.1, 0) })
-    same.push_back({ row->T_a_b_true * (centre + off), centre + off });
+    same.push_back({ row->T_a_b_true * (center + off), center + off });
   base::JobControl control;
   row->from_truth = alignment::alignByPoints(a.part, b.part, same, arguments.pair, control);
   row->from_truth_errors = errorsOf(row->from_truth->T_a_b, b.part, a.truth, b.truth, surfaces->of(a.truth));
@@ -191,7 +191,7 @@ PairRow alignPairOf(const SessionRow& a, const SessionRow& b, const Arguments& a
   for (std::size_t i = 0; i < row.result.candidates.size(); ++i)
   {
     row.errors.push_back(errorsOf(row.result.candidates[i].T_a_b, b.part, a.truth, b.truth, surfaces->of(a.truth)));
-    row.right[i] = isRight(row.errors.back(), arguments.grey);
+    row.right[i] = isRight(row.errors.back(), arguments.gray);
   }
   refineTruth(a, b, arguments, surfaces, &row);
   row.differences = differencesFromFirst(a.part, b.part, row.result.candidates, arguments.pair);
@@ -247,7 +247,7 @@ void run(const Arguments& arguments)
     std::cout << toTable(objects) << std::flush;
     nlohmann::json json = toJson(sessions, {});
     json["objects"] = toJson(objects);
-    json["options"] = { { "grey", arguments.grey } };
+    json["options"] = { { "grey", arguments.gray } };
     benchmark_program::writeJson(arguments.json, json);
     return;
   }
@@ -261,7 +261,7 @@ void run(const Arguments& arguments)
   std::cout << "\n" << summaryText(sessions, pairs) << std::flush;
   nlohmann::json json = toJson(sessions, pairs);
   json["options"] = {
-    { "grey", arguments.grey }, { "cross", arguments.cross },          { "arcs", arguments.arcs },
+    { "grey", arguments.gray }, { "cross", arguments.cross },          { "arcs", arguments.arcs },
     { "seed", arguments.seed }, { "threads", arguments.pair.threads }, { "spacing_m", arguments.part.spacing_m }
   };
   benchmark_program::writeJson(arguments.json, json);
@@ -286,7 +286,7 @@ int main(int argc, char** argv)
   app.add_option("--noise-model", noise_model,
                  "YAML of the sensor, as calibrate_camera writes it; for sessions that are not in the cache")
       ->check(CLI::ExistingFile);
-  app.add_flag("--grey", arguments.grey, "Without colour and features, by shape alone");
+  app.add_flag("--grey", arguments.gray, "Without colour and features, by shape alone");
   app.add_flag("--cross", arguments.cross, "Also pairs of different objects, which should be refused");
   app.add_option("--arcs", arguments.arcs,
                  "So many parts of each session, each of a random run of its keyframes: many pairs of few recordings")
@@ -307,7 +307,7 @@ int main(int argc, char** argv)
   return benchmark_program::run(app, argc, argv,
                                 [&]
                                 {
-                                  arguments.part.use_color = !arguments.grey;
+                                  arguments.part.use_color = !arguments.gray;
                                   arguments.part.spacing_m = 1e-3 * spacing_mm;
                                   if (!noise_model.empty())
                                     arguments.noise_model = rgbd::loadNoiseModel(noise_model);

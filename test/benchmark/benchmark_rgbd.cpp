@@ -73,13 +73,13 @@ BENCHMARK(buildFrame)
     ->Args({ 1, 0, 0 })
     ->Unit(benchmark::kMillisecond);
 
-void depthInMetres(benchmark::State& state)
+void depthInMeters(benchmark::State& state)
 {
   const cv::Mat depth = rawFrame().depth;
   for (auto _ : state)
-    benchmark::DoNotOptimize(rgbd::depthInMetres(depth, 0.001));
+    benchmark::DoNotOptimize(rgbd::depthInMeters(depth, 0.001));
 }
-BENCHMARK(depthInMetres)->Unit(benchmark::kMillisecond);
+BENCHMARK(depthInMeters)->Unit(benchmark::kMillisecond);
 
 void computeNormals(benchmark::State& state)
 {

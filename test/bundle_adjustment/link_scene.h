@@ -11,8 +11,8 @@ namespace object_modelling::bundle_adjustment
 /// Gives every keyframe and its next common landmarks, from the depth images and the exact poses, with pixel noise:
 /// what a tracker leaves behind that follows points from keyframe to keyframe and no further. On the mask only, if
 /// asked.
-inline void observeNeighbours(std::vector<rgbd::Keyframe>* keyframes, double pixel_noise_px, int step_px,
-                              bool object_only)
+inline void observeNeighbors(std::vector<rgbd::Keyframe>* keyframes, double pixel_noise_px, int step_px,
+                             bool object_only)
 {
   std::mt19937 random(11);
   std::normal_distribution<double> normal(0, pixel_noise_px);

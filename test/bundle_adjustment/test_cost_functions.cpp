@@ -13,7 +13,7 @@ namespace object_modelling::bundle_adjustment
 {
 namespace
 {
-LinearisedCamera makeCamera()
+LinearizedCamera makeCamera()
 {
   geometry::PinholeCamera camera;
   camera.fx = 531;
@@ -26,7 +26,7 @@ LinearisedCamera makeCamera()
 }
 
 /// Landmark 0.8 m in front of the camera, a little off its axis, in the session frame.
-Eigen::Vector3d makeLandmark(const LinearisedCamera& camera)
+Eigen::Vector3d makeLandmark(const LinearizedCamera& camera)
 {
   return camera.T_camera_session.inverse() * Eigen::Vector3d(0.1, -0.05, 0.8);
 }
@@ -63,7 +63,7 @@ void expectRightDerivatives(const ceres::CostFunction& cost, const Eigen::Vector
 
 TEST(CostFunctions, haveRightDerivatives)
 {
-  const LinearisedCamera camera = makeCamera();
+  const LinearizedCamera camera = makeCamera();
   expectRightDerivatives(ReprojectionCost(&camera, { 350, 220 }, 0.5), makeLandmark(camera), { 0.02, -0.03, 1.5, -2 });
   expectRightDerivatives(DepthCost(&camera, 0.78, { 0.002, -0.001 }, 0.0015), makeLandmark(camera),
                          { 0.02, -0.004, 0, 0 });
@@ -71,7 +71,7 @@ TEST(CostFunctions, haveRightDerivatives)
 
 TEST(CostFunctions, countInSigmas)
 {
-  const LinearisedCamera camera = makeCamera();
+  const LinearizedCamera camera = makeCamera();
   const Eigen::Vector3d landmark = makeLandmark(camera);
   const geometry::Vector6d motion = geometry::Vector6d::Zero();
   Eigen::Vector2d offset_px(0, 0);
@@ -96,7 +96,7 @@ TEST(CostFunctions, countInSigmas)
 
 TEST(CostFunctions, takeWhatTheSensorIsOffBy)
 {
-  const LinearisedCamera camera = makeCamera();
+  const LinearizedCamera camera = makeCamera();
   const Eigen::Vector3d landmark = makeLandmark(camera);
   const geometry::Vector6d motion = geometry::Vector6d::Zero();
   const Eigen::Vector2d offset_px(0, 0);
@@ -115,7 +115,7 @@ TEST(CostFunctions, takeWhatTheSensorIsOffBy)
 
 TEST(CostFunctions, surfacesMayLeaveADirectionFree)
 {
-  const LinearisedCamera camera = makeCamera();
+  const LinearizedCamera camera = makeCamera();
   geometry::Matrix6d information = 1e4 * geometry::Matrix6d::Identity();
   const geometry::Vector6d free = (geometry::Vector6d() << 1, 2, 0, 0, 0, 0).finished().normalized();
   information -= 1e4 * free * free.transpose();
@@ -142,7 +142,7 @@ TEST(CostFunctions, surfacesMayLeaveADirectionFree)
 
 TEST(CostFunctions, countALandmarkBehindTheCameraAsGrossOutlier)
 {
-  const LinearisedCamera camera = makeCamera();
+  const LinearizedCamera camera = makeCamera();
   const Eigen::Vector3d behind = camera.T_camera_session.inverse() * Eigen::Vector3d(0.1, 0, -0.5);
   const geometry::Vector6d motion = geometry::Vector6d::Zero();
   const double offset_px[2] = { 0, 0 };

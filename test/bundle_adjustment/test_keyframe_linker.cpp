@@ -118,7 +118,7 @@ TEST(KeyframeLinker, closesALoopWithDrift)
   for (bool object_only : { false, true })
   {
     std::vector<rgbd::Keyframe> truth = loopScene();
-    observeNeighbours(&truth, 0.5, object_only ? 12 : 40, object_only);
+    observeNeighbors(&truth, 0.5, object_only ? 12 : 40, object_only);
     geometry::Vector6d per_step;
     per_step << 0.0035, 0, 0, 0, 0.0065, 0;  // 84 mm and 9 deg over 24 steps
     const std::vector<rgbd::Keyframe> keyframes = drifted(truth, per_step);
@@ -173,7 +173,7 @@ TEST(KeyframeLinker, dropsALinkBetweenThingsThatLookTheSame)
   ASSERT_EQ(alone.size(), 1u);
   EXPECT_LT(alone[0].T_a_b.translation().norm(), 0.01);
 
-  observeNeighbours(&keyframes, 0.3, 40, false);
+  observeNeighbors(&keyframes, 0.3, 40, false);
   base::JobControl control;
   const BundleAdjustmentResult result = adjustBundle(keyframes, {}, control);
   ASSERT_TRUE(result.status.ok()) << result.status.message;

@@ -51,16 +51,16 @@ VerifiedLink linkOf(const std::vector<rgbd::Keyframe>& keyframes, int a, int b,
 const std::vector<Eigen::Vector3d> CROSS = { { 0.1, 0, 0 },  { -0.1, 0, 0 }, { 0, 0.1, 0 },
                                              { 0, -0.1, 0 }, { 0, 0, 0.1 },  { 0, 0, -0.1 } };
 
-void expectPatch(const PoseEdge& edge, const Eigen::Vector3d& centre_b, double radius_m)
+void expectPatch(const PoseEdge& edge, const Eigen::Vector3d& center_b, double radius_m)
 {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : edge.points_b)
   {
     sum += p;
-    EXPECT_NEAR((p - centre_b).norm(), radius_m, 1e-6);
+    EXPECT_NEAR((p - center_b).norm(), radius_m, 1e-6);
   }
-  EXPECT_LT((sum / 4 - centre_b).norm(), 1e-6);
-  EXPECT_NEAR(edge.sigma_m, DRIFT_RATIO * centre_b.norm(), 1e-9);
+  EXPECT_LT((sum / 4 - center_b).norm(), 1e-6);
+  EXPECT_NEAR(edge.sigma_m, DRIFT_RATIO * center_b.norm(), 1e-9);
 }
 
 TEST(EdgeOfLink, HasThePatchThatTheSecondKeyframeSees)

@@ -32,7 +32,7 @@ Eigen::Isometry3d translated(double x_m, double y_m = 0, double z_m = 0)
   return Eigen::Isometry3d(Eigen::Translation3d(x_m, y_m, z_m));
 }
 
-TEST(PatchCorners, HaveTheCentreAndTheSameSpreadInAllDirections)
+TEST(PatchCorners, HaveTheCenterAndTheSameSpreadInAllDirections)
 {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();

@@ -16,14 +16,14 @@ constexpr double HALF_WIDTH_M = 0.9, HALF_HEIGHT_M = 0.7, BACKGROUND_M = 1;
 double wallDepth_m(const WallPose& pose, double x, double y, bool endless, double* theta_rad)
 {
   const Eigen::Vector3d n(std::sin(pose.tilt_rad), 0, -std::cos(pose.tilt_rad)), ray(x, y, 1);
-  const Eigen::Vector3d centre(0, 0, pose.distance_m);
+  const Eigen::Vector3d center(0, 0, pose.distance_m);
   const double facing = n.dot(ray);
   if (facing > -1e-3)
     return 0;
-  const Eigen::Vector3d p = ray * (n.dot(centre) / facing);
+  const Eigen::Vector3d p = ray * (n.dot(center) / facing);
   const Eigen::Vector3d across(std::cos(pose.tilt_rad), 0, std::sin(pose.tilt_rad));
   *theta_rad = std::acos(std::min(1.0, -facing / ray.norm()));
-  const bool inside = std::abs(across.dot(p - centre)) <= HALF_WIDTH_M && std::abs(p.y()) <= HALF_HEIGHT_M;
+  const bool inside = std::abs(across.dot(p - center)) <= HALF_WIDTH_M && std::abs(p.y()) <= HALF_HEIGHT_M;
   return endless || inside ? p.z() : 0;
 }
 }  // namespace

@@ -39,7 +39,7 @@ TEST(ComparisonTest, StatisticsOfKnownDistances)
 }
 
 // 0.5 mm outside a sphere of 50 mm, somewhere else: the distance has to come out whatever the unknown turn is.
-TEST(ComparisonTest, ASphereHalfAMillimetreTooLarge)
+TEST(ComparisonTest, ASphereHalfAMillimeterTooLarge)
 {
   const mesh::ReferenceSurface surface(test_support::sphere(0.05f, 100));
   const std::vector<Eigen::Vector3d> points = pointsOf(test_support::sphere(0.0505f, 60));
@@ -75,18 +75,18 @@ TEST(ComparisonTest, WithoutAlignmentTheModelStaysWhereItIsPut)
   EXPECT_EQ(comparison.T_reference_model.matrix(), options.T_start->matrix());
 }
 
-TEST(ComparisonTest, MillimetresForMetresAreNamed)
+TEST(ComparisonTest, MillimetersForMetersAreNamed)
 {
-  const mesh::ReferenceSurface metres(test_support::lopsidedShape(3));
+  const mesh::ReferenceSurface meters(test_support::lopsidedShape(3));
   std::vector<Eigen::Vector3d> points = pointsOf(test_support::lopsidedShape(5));
   for (Eigen::Vector3d& point : points)
     point *= 1000;
-  const base::Status status = compared(points, metres).status;
+  const base::Status status = compared(points, meters).status;
   EXPECT_EQ(status.code, base::StatusCode::BAD_INPUT);
   EXPECT_NE(status.message.find("--model-unit mm"), std::string::npos) << status.message;
   for (Eigen::Vector3d& point : points)
     point /= 1e6;
-  EXPECT_NE(compared(points, metres).status.message.find("--reference-unit mm"), std::string::npos);
+  EXPECT_NE(compared(points, meters).status.message.find("--reference-unit mm"), std::string::npos);
 }
 
 TEST(ComparisonTest, NothingAndNotANumber)

@@ -109,17 +109,17 @@ TEST_F(ComparisonFilesTest, HistogramCountsAndPicture)
   EXPECT_THROW(writeHistogram(folder_.path("no/folder.png"), histogram, statisticsOf(distances_m)), base::Error);
 }
 
-TEST_F(ComparisonFilesTest, ColouredCloud)
+TEST_F(ComparisonFilesTest, ColoredCloud)
 {
   Comparison comparison;
   comparison.points_reference = { { 1, 2, 3 }, { 4, 5, 6 } };
   comparison.distances_m = { 0, 0.01 };
   const std::string path = folder_.path("cloud.ply");
-  writeColouredCloud(path, comparison, 0.002);
+  writeColoredCloud(path, comparison, 0.002);
   const mesh::TriangleMesh cloud = readGeometry(path);
   ASSERT_EQ(cloud.vertices.size(), 2u);
   EXPECT_EQ(cloud.vertices[1], Eigen::Vector3f(4, 5, 6));
-  EXPECT_THROW(writeColouredCloud(folder_.path("no/cloud.ply"), comparison, 0.002), base::Error);
+  EXPECT_THROW(writeColoredCloud(folder_.path("no/cloud.ply"), comparison, 0.002), base::Error);
 }
 
 }  // namespace

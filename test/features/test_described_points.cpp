@@ -10,14 +10,14 @@ namespace object_modelling::features
 namespace
 {
 /// Bright Gaussian blobs of known centres.
-cv::Mat blobs(const std::vector<cv::Point2f>& centres, double sigma_px)
+cv::Mat blobs(const std::vector<cv::Point2f>& centers, double sigma_px)
 {
   cv::Mat gray(480, 640, CV_32FC1, cv::Scalar(40)), result;
   for (int v = 0; v < gray.rows; ++v)
     for (int u = 0; u < gray.cols; ++u)
-      for (const cv::Point2f& centre : centres)
+      for (const cv::Point2f& center : centers)
         gray.at<float>(v, u) += static_cast<float>(
-            180 * std::exp(-0.5 * (std::pow(u - centre.x, 2) + std::pow(v - centre.y, 2)) / (sigma_px * sigma_px)));
+            180 * std::exp(-0.5 * (std::pow(u - center.x, 2) + std::pow(v - center.y, 2)) / (sigma_px * sigma_px)));
   gray.convertTo(result, CV_8U);
   return result;
 }
@@ -36,20 +36,20 @@ cv::Mat bytes(std::initializer_list<std::uint8_t> values)
 }
 }  // namespace
 
-TEST(DescribedPoints, ScaleInvariantOnesLieOnTheCentresOfBlobsOfAnySize)
+TEST(DescribedPoints, ScaleInvariantOnesLieOnTheCentersOfBlobsOfAnySize)
 {
-  const std::vector<cv::Point2f> centres = { { 100, 90 }, { 333.3F, 250.7F }, { 500.5F, 120 }, { 200, 400.25F } };
+  const std::vector<cv::Point2f> centers = { { 100, 90 }, { 333.3F, 250.7F }, { 500.5F, 120 }, { 200, 400.25F } };
   for (const double sigma_px : { 3.0, 6.0, 12.0 })
   {
-    const DescribedPoints found = detectScaleInvariant(blobs(centres, sigma_px), {}, 200);
+    const DescribedPoints found = detectScaleInvariant(blobs(centers, sigma_px), {}, 200);
     ASSERT_EQ(found.descriptors.rows, static_cast<int>(found.pixels.size()));
-    for (const cv::Point2f& centre : centres)
+    for (const cv::Point2f& center : centers)
     {
       cv::Point2f nearest(1e6F, 1e6F);
       for (const cv::Point2f& pixel : found.pixels)
-        if (cv::norm(pixel - centre) < cv::norm(nearest))
-          nearest = pixel - centre;
-      EXPECT_LT(cv::norm(nearest), 0.1) << centre << " of sigma " << sigma_px << " px is off by " << nearest;
+        if (cv::norm(pixel - center) < cv::norm(nearest))
+          nearest = pixel - center;
+      EXPECT_LT(cv::norm(nearest), 0.1) << center << " of sigma " << sigma_px << " px is off by " << nearest;
     }
   }
 }

@@ -255,7 +255,7 @@ TEST(CloudFusion, NothingOutsideTheMasks)
     EXPECT_GT(point.z(), 0.04f);
 }
 
-TEST(CloudFusion, ExposureDifferencesDoNotMottleTheColour)
+TEST(CloudFusion, ExposureDifferencesDoNotMottleTheColor)
 {
   SyntheticScene scene = sphereOnTable();
   scene.objects[0].texture = test_support::plainTexture({ 60, 120, 180 });

@@ -29,7 +29,7 @@ double colorDifference(const FusedCloud& a, const FusedCloud& b)
 }
 }  // namespace
 
-TEST(CloudFusion, TakesColoursByTheOffsetOfEachView)
+TEST(CloudFusion, TakesColorsByTheOffsetOfEachView)
 {
   const std::vector<rgbd::View> registered = test_support::renderViews(
       test_support::boxOnTable(), test_support::vgaCamera(), test_support::orbitPoses(12, { 0, 0, 0.1 }, 0.6, 0.35));

@@ -67,7 +67,7 @@ TEST_F(Wall, KnowsNothingBeyondItsImageAndBehindTheCamera)
     EXPECT_EQ(vote(point).seen_through + vote(point).same, 0) << point.transpose();
 }
 
-TEST_F(Wall, ANeighbouringSurfaceIsNotSeenThrough)
+TEST_F(Wall, ANeighboringSurfaceIsNotSeenThrough)
 {
   // A thin rod at 0.9 m that the lateral noise has moved by one pixel.
   views_[0].frame.depth_m.col(321).setTo(0.9f);

@@ -12,17 +12,17 @@ namespace
 constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
 }
 
-TEST(ImageSampling, NeighboursAreNeededOnAllSides)
+TEST(ImageSampling, NeighborsAreNeededOnAllSides)
 {
   const cv::Mat image(3, 4, CV_32FC1);
-  EXPECT_TRUE(hasNeighbours(image, 0, 0));
-  EXPECT_TRUE(hasNeighbours(image, 2.99F, 1.99F));
-  EXPECT_FALSE(hasNeighbours(image, 3, 1));
-  EXPECT_FALSE(hasNeighbours(image, 1, 2));
-  EXPECT_FALSE(hasNeighbours(image, -0.01F, 1));
-  EXPECT_FALSE(hasNeighbours(image, 1, -0.01F));
-  EXPECT_FALSE(hasNeighbours(image, NOT_A_NUMBER, 1));
-  EXPECT_FALSE(hasNeighbours(image, 1, NOT_A_NUMBER));
+  EXPECT_TRUE(hasNeighbors(image, 0, 0));
+  EXPECT_TRUE(hasNeighbors(image, 2.99F, 1.99F));
+  EXPECT_FALSE(hasNeighbors(image, 3, 1));
+  EXPECT_FALSE(hasNeighbors(image, 1, 2));
+  EXPECT_FALSE(hasNeighbors(image, -0.01F, 1));
+  EXPECT_FALSE(hasNeighbors(image, 1, -0.01F));
+  EXPECT_FALSE(hasNeighbors(image, NOT_A_NUMBER, 1));
+  EXPECT_FALSE(hasNeighbors(image, 1, NOT_A_NUMBER));
 }
 
 TEST(ImageSampling, IsLinearAlongBothAxes)
@@ -34,7 +34,7 @@ TEST(ImageSampling, IsLinearAlongBothAxes)
   EXPECT_FLOAT_EQ(bilinear(upper, lower, SubPixel(7.5F, 5.5F)), 35);
 }
 
-TEST(ImageSampling, ColoursOutsideAreThoseOfTheRim)
+TEST(ImageSampling, ColorsOutsideAreThoseOfTheRim)
 {
   cv::Mat image(2, 3, CV_8UC3);
   for (int v = 0; v < image.rows; ++v)
@@ -51,7 +51,7 @@ TEST(ImageSampling, ColoursOutsideAreThoseOfTheRim)
   }
 }
 
-TEST(ImageSampling, GreyLevelsHaveTheSlopesOfTheirSurface)
+TEST(ImageSampling, GrayLevelsHaveTheSlopesOfTheirSurface)
 {
   cv::Mat gray(4, 5, CV_8UC1);
   for (int v = 0; v < gray.rows; ++v)

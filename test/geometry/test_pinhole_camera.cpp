@@ -32,7 +32,7 @@ TEST(PinholeCamera, ProjectKnownAnswerAndInverse)
   EXPECT_TRUE(camera.project(p).isApprox(Eigen::Vector2d(12.25, 400.5), 1e-12));
 }
 
-TEST(PinholeCamera, ContainsCountsPixelCentres)
+TEST(PinholeCamera, ContainsCountsPixelCenters)
 {
   const PinholeCamera camera = someCamera();
   EXPECT_TRUE(camera.contains({ 0, 0 }));

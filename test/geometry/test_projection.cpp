@@ -93,7 +93,7 @@ TYPED_TEST(Projected, IsNotInsideWithoutNumbers)
   EXPECT_FALSE(this->inside(Point(infinity, 0, infinity)));
 }
 
-TYPED_TEST(Projected, HasTheImageEndHalfAPixelBeyondTheOutermostCentres)
+TYPED_TEST(Projected, HasTheImageEndHalfAPixelBeyondTheOutermostCenters)
 {
   EXPECT_TRUE(this->inside(-0.49, 24));
   EXPECT_TRUE(this->inside(63.49, 24));

@@ -61,19 +61,19 @@ TEST(Transform, RotationAngle)
   EXPECT_NEAR(rotationAngle_rad(isometryFromVector(half_turn)), M_PI, 1e-9);
 }
 
-TEST(Transform, IsometryFromNormalisesItsQuaternion)
+TEST(Transform, IsometryFromNormalizesItsQuaternion)
 {
   const Eigen::Isometry3d T = isometryFrom(Eigen::Quaterniond(2, 0, 0, 0), { 1, 2, 3 });
   EXPECT_TRUE(T.linear().isIdentity(1e-15));
   EXPECT_EQ(T.translation(), Eigen::Vector3d(1, 2, 3));
 }
 
-TEST(Transform, NormalisedRemovesDrift)
+TEST(Transform, NormalizedRemovesDrift)
 {
   Eigen::Isometry3d T = someTransform();
   T.linear() *= 1.001;
   T.linear()(0, 1) += 1e-4;
-  const Eigen::Isometry3d fixed = normalised(T);
+  const Eigen::Isometry3d fixed = normalized(T);
   EXPECT_TRUE((fixed.linear() * fixed.linear().transpose()).isIdentity(1e-12));
   EXPECT_NEAR(fixed.linear().determinant(), 1, 1e-12);
   EXPECT_TRANSFORM_NEAR(fixed, someTransform(), 1e-12, 1e-3);

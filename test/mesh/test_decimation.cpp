@@ -49,7 +49,7 @@ TEST(Decimation, FlatSheetNeedsFewTriangles)
     EXPECT_GT(normal.z(), 0.999f);
 }
 
-TEST(Decimation, WhatStaysKeepsItsColourAndMark)
+TEST(Decimation, WhatStaysKeepsItsColorAndMark)
 {
   DecimationOptions options;
   options.max_triangles = 400;

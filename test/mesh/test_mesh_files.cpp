@@ -57,7 +57,7 @@ protected:
   test_support::TempDir folder_;
 };
 
-TEST_P(MeshFiles, RoundTripKeepsGeometryNormalsAndColours)
+TEST_P(MeshFiles, RoundTripKeepsGeometryNormalsAndColors)
 {
   const TriangleMesh mesh = strip();
   const std::string path = folder_.path("strip" + GetParam());
@@ -75,7 +75,7 @@ TEST_P(MeshFiles, RoundTripKeepsGeometryNormalsAndColours)
   EXPECT_EQ(read.triangles, mesh.triangles);
 }
 
-TEST_P(MeshFiles, RoundTripWithoutNormalsAndColours)
+TEST_P(MeshFiles, RoundTripWithoutNormalsAndColors)
 {
   const std::string path = folder_.path("strip" + GetParam());
   writeMesh(path, strip(false, false));

@@ -78,7 +78,7 @@ TEST(MeshRenderer, TheNearerOfTwoIsSeenWhateverTheOrder)
   }
 }
 
-TEST(MeshRenderer, PixelCentresDecideCoverage)
+TEST(MeshRenderer, PixelCentersDecideCoverage)
 {
   // A square over the centres of the pixels 10..12 x 20..22, a quarter of a pixel beyond them.
   const geometry::PinholeCamera camera = smallCamera();

@@ -174,7 +174,7 @@ TEST(IcpView, PointsAreSpreadOverTheNormals)
   EXPECT_LT(upright, 700);
 }
 
-TEST(IcpView, TakesGreyLevelsByTheOffsetOfItsView)
+TEST(IcpView, TakesGrayLevelsByTheOffsetOfItsView)
 {
   constexpr int OFFSET_PX = 4;
   const rgbd::View registered = viewsRound(test_support::boxOnTable(), 1).front();

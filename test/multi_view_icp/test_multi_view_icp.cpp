@@ -31,12 +31,12 @@ protected:
   }
   static void TearDownTestSuite() { truth_.clear(); }
 
-  void expectBack(const MultiViewIcpResult& result, double metres = 0.0025, double radians = 0.0035) const
+  void expectBack(const MultiViewIcpResult& result, double meters = 0.0025, double radians = 0.0035) const
   {
     ASSERT_TRUE(result.status.ok()) << result.status.message;
     EXPECT_TRUE(result.left_out.empty());
     const test_support::PoseError error = test_support::largestError(result.T_world_camera, truth_);
-    EXPECT_LT(error.translation_m, metres);
+    EXPECT_LT(error.translation_m, meters);
     EXPECT_LT(error.rotation_rad, radians);
   }
   MultiViewIcpResult refine(const std::vector<rgbd::View>& views)

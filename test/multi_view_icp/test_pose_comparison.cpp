@@ -62,7 +62,7 @@ TEST(PoseComparison, PrefersTheTruth)
   EXPECT_LT(scores[0].total(), scores[1].total());
 }
 
-TEST(PoseComparison, GreyLevelsTellWhatDepthsDoNot)
+TEST(PoseComparison, GrayLevelsTellWhatDepthsDoNot)
 {
   // Sideways, most of a table and a box stay where they are.
   const std::vector<rgbd::View> views = arc();

@@ -21,10 +21,10 @@ segmentation::SceneSegmentation hypothesesAt(const std::vector<Eigen::Vector3d>&
   return segmentation;
 }
 
-geometry::OrientedBox boxAt(const Eigen::Vector3d& centre)
+geometry::OrientedBox boxAt(const Eigen::Vector3d& center)
 {
   geometry::OrientedBox box;
-  box.T_frame_box.translation() = centre;
+  box.T_frame_box.translation() = center;
   box.size_m = Eigen::Vector3d::Constant(0.2);
   return box;
 }

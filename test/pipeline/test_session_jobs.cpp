@@ -33,8 +33,8 @@ TEST_F(SessionJobs, SegmentWritesMasksAndSupportPlane)
 
 TEST_F(SessionJobs, SegmentTakesTheObjectThatIsNamed)
 {
-  const Eigen::Vector3d centre_session = recording_.T_object_cameras[0].inverse() * Eigen::Vector3d::Zero();
-  EXPECT_TRUE(segmentStoredSession(*store_, WALK, centre_session, {}, control_).status.ok());
+  const Eigen::Vector3d center_session = recording_.T_object_cameras[0].inverse() * Eigen::Vector3d::Zero();
+  EXPECT_TRUE(segmentStoredSession(*store_, WALK, center_session, {}, control_).status.ok());
   const std::string before = fingerprint(*store_, WALK);
   const Eigen::Vector3d nowhere_session(0, -5, 0);
   const SegmentReport report = segmentStoredSession(*store_, WALK, nowhere_session, {}, control_);

@@ -40,8 +40,8 @@ TEST_F(SessionJobs, EachStageLeavesItsMark)
   EXPECT_EQ(store_->session(WALK).refined.by, "bundle_adjustment");
   ASSERT_TRUE(segmentStoredSession(*store_, WALK, std::nullopt, {}, control_).status.ok());
   EXPECT_EQ(store_->session(WALK).segmented.by, keyframes::stage_mark::AUTOMATIC);
-  const Eigen::Vector3d centre_session = recording_.T_object_cameras[0].inverse() * Eigen::Vector3d::Zero();
-  ASSERT_TRUE(segmentStoredSession(*store_, WALK, centre_session, {}, control_).status.ok());
+  const Eigen::Vector3d center_session = recording_.T_object_cameras[0].inverse() * Eigen::Vector3d::Zero();
+  ASSERT_TRUE(segmentStoredSession(*store_, WALK, center_session, {}, control_).status.ok());
   EXPECT_EQ(store_->session(WALK).segmented.by, keyframes::stage_mark::BY_HAND);
   EXPECT_NE(store_->session(WALK).segmented.options.find("seed_point_session_m: ["), std::string::npos);
 }

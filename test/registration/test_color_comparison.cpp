@@ -99,12 +99,12 @@ TEST(ColorComparison, PrintThatIsDarkOnOneSideIsNotLight)
   EXPECT_GT(difference(compare(one, turned)), 0.3);
 }
 
-TEST(ColorComparison, IsZeroWithoutColourAndWithoutPoints)
+TEST(ColorComparison, IsZeroWithoutColorAndWithoutPoints)
 {
-  const auto grey = [](const Eigen::Vector3f&) { return Eigen::Vector3f::Zero(); };
-  EXPECT_EQ(compare(grey, grey).agreement, 0);
-  EXPECT_EQ(compare(grey, grey).texture, 0);
-  EXPECT_EQ(compare(grey, grey).light_variance, 0);
+  const auto gray = [](const Eigen::Vector3f&) { return Eigen::Vector3f::Zero(); };
+  EXPECT_EQ(compare(gray, gray).agreement, 0);
+  EXPECT_EQ(compare(gray, gray).texture, 0);
+  EXPECT_EQ(compare(gray, gray).light_variance, 0);
   EXPECT_EQ(ColorComparison().result().agreement, 0);
 }
 

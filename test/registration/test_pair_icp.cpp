@@ -55,15 +55,15 @@ PartialModel boxSides(bool upper, float shift_m, unsigned seed)
 }
 
 /// Off by some distance at the box, and by some angle about its centre, either in a random direction.
-Eigen::Isometry3f disturbed(const Eigen::Isometry3f& T_a_b, const Eigen::Vector3f& centre_b, double distance_m,
+Eigen::Isometry3f disturbed(const Eigen::Isometry3f& T_a_b, const Eigen::Vector3f& center_b, double distance_m,
                             double angle_rad, unsigned seed)
 {
   std::mt19937 random(seed);
   std::normal_distribution<float> normal(0, 1);
   const auto direction = [&] { return Eigen::Vector3f(normal(random), normal(random), normal(random)).normalized(); };
   const Eigen::Vector3f step = static_cast<float>(distance_m) * direction();
-  return T_a_b * Eigen::Translation3f(centre_b + step) * Eigen::AngleAxisf(static_cast<float>(angle_rad), direction()) *
-         Eigen::Translation3f(-centre_b);
+  return T_a_b * Eigen::Translation3f(center_b + step) * Eigen::AngleAxisf(static_cast<float>(angle_rad), direction()) *
+         Eigen::Translation3f(-center_b);
 }
 
 double angle_deg(const Eigen::Isometry3f& T)
@@ -72,10 +72,10 @@ double angle_deg(const Eigen::Isometry3f& T)
 }
 
 /// Of two poses of one part: how far its centre is off, and by which angle.
-void expectNear(const Eigen::Isometry3f& found, const Eigen::Isometry3f& truth, const Eigen::Vector3f& centre_m,
+void expectNear(const Eigen::Isometry3f& found, const Eigen::Isometry3f& truth, const Eigen::Vector3f& center_m,
                 double distance_mm, double degrees, const std::string& what)
 {
-  EXPECT_LT((found * centre_m - truth * centre_m).norm() / MM_M, distance_mm) << what;
+  EXPECT_LT((found * center_m - truth * center_m).norm() / MM_M, distance_mm) << what;
   EXPECT_LT(angle_deg(truth.inverse() * found), degrees) << what;
 }
 
@@ -89,7 +89,7 @@ protected:
   const PartialModel model_a_ = placed(boxSides(true, 0, 1), T_a_box_);
   const PartialModel model_b_ = placed(boxSides(false, 0.0007F, 2), T_b_box_);
   const MatchedSurface a_{ model_a_, 1 }, b_{ model_b_, 1 };
-  const Eigen::Vector3f centre_a_ = T_a_box_.translation(), centre_b_ = T_b_box_.translation();
+  const Eigen::Vector3f center_a_ = T_a_box_.translation(), center_b_ = T_b_box_.translation();
 };
 
 TEST_F(PairIcp, RefinesFromManyStartsEitherWay)
@@ -97,13 +97,13 @@ TEST_F(PairIcp, RefinesFromManyStartsEitherWay)
   const PartPair ab(a_, b_, 1), ba(b_, a_, 1);
   for (unsigned seed = 1; seed <= 8; ++seed)
   {
-    const Eigen::Isometry3f start = disturbed(T_a_b_, centre_b_, 4 * MM_M, 3 * DEGREE_RAD, seed);
+    const Eigen::Isometry3f start = disturbed(T_a_b_, center_b_, 4 * MM_M, 3 * DEGREE_RAD, seed);
     Eigen::Isometry3f T_a_b = start, T_b_a = start.inverse();
     const PairQuality quality = refinePairPose(ab, &T_a_b), inverse_quality = refinePairPose(ba, &T_b_a);
     const std::string what = "start " + std::to_string(seed);
-    expectNear(T_a_b, T_a_b_, centre_b_, 0.15, 0.15, what);
-    expectNear(T_b_a, T_a_b_.inverse(), centre_a_, 0.15, 0.15, what + ", a on b");
-    expectNear(T_b_a.inverse(), T_a_b, centre_b_, 0.02, 0.02, what + ", there and back");
+    expectNear(T_a_b, T_a_b_, center_b_, 0.15, 0.15, what);
+    expectNear(T_b_a, T_a_b_.inverse(), center_a_, 0.15, 0.15, what + ", a on b");
+    expectNear(T_b_a.inverse(), T_a_b, center_b_, 0.02, 0.02, what + ", there and back");
     EXPECT_LT(quality.rmse_m, 0.5 * MM_M) << what;
     EXPECT_GT(quality.color_agreement, 0.95) << what;
     EXPECT_NEAR(inverse_quality.rmse_m, quality.rmse_m, 0.01 * MM_M) << what;
@@ -115,10 +115,10 @@ TEST_F(PairIcp, StaysWhereItIsRight)
   const PartPair pair(a_, b_, 1);
   Eigen::Isometry3f T_a_b = T_a_b_;
   refinePairPose(pair, &T_a_b);
-  expectNear(T_a_b, T_a_b_, centre_b_, 0.15, 0.15, "from the truth");
+  expectNear(T_a_b, T_a_b_, center_b_, 0.15, 0.15, "from the truth");
   const Eigen::Isometry3f once = T_a_b;
   refinePairPose(pair, &T_a_b);
-  expectNear(T_a_b, once, centre_b_, 0.01, 0.01, "again");
+  expectNear(T_a_b, once, center_b_, 0.01, 0.01, "again");
 }
 
 TEST_F(PairIcp, ReachesFarByFewPoints)
@@ -132,10 +132,10 @@ TEST_F(PairIcp, ReachesFarByFewPoints)
   coarse.iterations = 20;
   for (unsigned seed = 1; seed <= 8; ++seed)
   {
-    const Eigen::Isometry3f start = disturbed(T_a_b_, centre_b_, 10 * MM_M, 8 * DEGREE_RAD, seed);
+    const Eigen::Isometry3f start = disturbed(T_a_b_, center_b_, 10 * MM_M, 8 * DEGREE_RAD, seed);
     const std::string what = "start " + std::to_string(seed);
-    expectNear(alignByIcp(a_, same_sides, start, coarse), T_a_b_, centre_b_, 2, 2, what);
-    expectNear(alignByIcp(same_sides, a_, start.inverse(), coarse), T_a_b_.inverse(), centre_a_, 2, 2,
+    expectNear(alignByIcp(a_, same_sides, start, coarse), T_a_b_, center_b_, 2, 2, what);
+    expectNear(alignByIcp(same_sides, a_, start.inverse(), coarse), T_a_b_.inverse(), center_a_, 2, 2,
                what + ", a on b");
   }
 }

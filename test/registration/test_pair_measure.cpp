@@ -221,7 +221,7 @@ TEST(PairMeasure, DoesNotDependOnTheSessionFrames)
   expectAlike(measure(corner, placed(corner, T.inverse()), T), truth, 2e-3);
 }
 
-TEST(PairMeasure, ColoursAndTheirSlopesAgreeOrAreOpposite)
+TEST(PairMeasure, ColorsAndTheirSlopesAgreeOrAreOpposite)
 {
   const PartialModel corner = printedCorner();
   const auto times = [&](float factor)

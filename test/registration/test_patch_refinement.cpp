@@ -12,7 +12,7 @@ namespace object_modelling::registration
 namespace
 {
 constexpr int SIDE_PX = 160;
-const Eigen::Vector2f CENTRE(80, 80);
+const Eigen::Vector2f CENTER(80, 80);
 
 /// Smooth texture that can be evaluated anywhere, so that warps are exact.
 double texture(double u, double v)
@@ -44,7 +44,7 @@ Eigen::Matrix3d shift(double u, double v)
 
 Eigen::Vector2f truth(const Eigen::Matrix3d& H_current_reference)
 {
-  return (H_current_reference * CENTRE.cast<double>().homogeneous()).hnormalized().cast<float>();
+  return (H_current_reference * CENTER.cast<double>().homogeneous()).hnormalized().cast<float>();
 }
 }  // namespace
 
@@ -55,12 +55,12 @@ TEST(PatchRefinement, FindsSubPixelShiftsInBothDirections)
   {
     const std::vector<cv::Mat> a = image(shift(0, 0));
     const std::vector<cv::Mat> b = image(shift(-offset.x(), -offset.y()));
-    const PatchRefinement forward = refinePatch(a, b, shift(0, 0), CENTRE, CENTRE, 2);
+    const PatchRefinement forward = refinePatch(a, b, shift(0, 0), CENTER, CENTER, 2);
     ASSERT_TRUE(forward.accepted);
-    EXPECT_LT((forward.pixel - CENTRE - offset.cast<float>()).norm(), 0.03F);
-    const PatchRefinement backward = refinePatch(b, a, shift(0, 0), CENTRE, CENTRE, 2);
+    EXPECT_LT((forward.pixel - CENTER - offset.cast<float>()).norm(), 0.03F);
+    const PatchRefinement backward = refinePatch(b, a, shift(0, 0), CENTER, CENTER, 2);
     ASSERT_TRUE(backward.accepted);
-    EXPECT_LT((backward.pixel - CENTRE + offset.cast<float>()).norm(), 0.03F);
+    EXPECT_LT((backward.pixel - CENTER + offset.cast<float>()).norm(), 0.03F);
   }
 }
 
@@ -72,13 +72,13 @@ TEST(PatchRefinement, FollowsAProjectiveWarpBothWays)
   const std::vector<cv::Mat> current = image(H_current_reference.inverse());
   const Eigen::Vector2f expected = truth(H_current_reference);
   const PatchRefinement forward =
-      refinePatch(reference, current, H_current_reference, CENTRE, expected + Eigen::Vector2f(0.9F, -0.7F), 1.5);
+      refinePatch(reference, current, H_current_reference, CENTER, expected + Eigen::Vector2f(0.9F, -0.7F), 1.5);
   ASSERT_TRUE(forward.accepted);
   EXPECT_LT((forward.pixel - expected).norm(), 0.04F);
   const PatchRefinement backward = refinePatch(current, reference, H_current_reference.inverse(), expected,
-                                               CENTRE + Eigen::Vector2f(-0.8F, 0.6F), 1.5);
+                                               CENTER + Eigen::Vector2f(-0.8F, 0.6F), 1.5);
   ASSERT_TRUE(backward.accepted);
-  EXPECT_LT((backward.pixel - CENTRE).norm(), 0.04F);
+  EXPECT_LT((backward.pixel - CENTER).norm(), 0.04F);
 }
 
 TEST(PatchRefinement, EstimatesGainAndBias)
@@ -87,9 +87,9 @@ TEST(PatchRefinement, EstimatesGainAndBias)
   for (const auto& [gain, bias] : { std::pair(0.6, 30.0), std::pair(1.25, -35.0) })
   {
     const PatchRefinement found =
-        refinePatch(reference, image(shift(-0.6, 0.4), gain, bias), shift(0, 0), CENTRE, CENTRE, 1);
+        refinePatch(reference, image(shift(-0.6, 0.4), gain, bias), shift(0, 0), CENTER, CENTER, 1);
     ASSERT_TRUE(found.accepted);
-    EXPECT_LT((found.pixel - CENTRE - Eigen::Vector2f(0.6F, -0.4F)).norm(), 0.05F);
+    EXPECT_LT((found.pixel - CENTER - Eigen::Vector2f(0.6F, -0.4F)).norm(), 0.05F);
     EXPECT_GT(found.correlation, 0.98F);
   }
 }
@@ -98,9 +98,9 @@ TEST(PatchRefinement, CoarseLevelReachesFurther)
 {
   const std::vector<cv::Mat> reference = image(shift(0, 0));
   const std::vector<cv::Mat> current = image(shift(-2.6, 1.9));
-  const PatchRefinement found = refinePatch(reference, current, shift(0, 0), CENTRE, CENTRE, 5);
+  const PatchRefinement found = refinePatch(reference, current, shift(0, 0), CENTER, CENTER, 5);
   ASSERT_TRUE(found.accepted);
-  EXPECT_LT((found.pixel - CENTRE - Eigen::Vector2f(2.6F, -1.9F)).norm(), 0.05F);
+  EXPECT_LT((found.pixel - CENTER - Eigen::Vector2f(2.6F, -1.9F)).norm(), 0.05F);
 }
 
 TEST(PatchRefinement, DoesNotCallNonConvergenceASuccess)
@@ -108,7 +108,7 @@ TEST(PatchRefinement, DoesNotCallNonConvergenceASuccess)
   const std::vector<cv::Mat> reference = image(shift(0, 0));
   PatchRefinementOptions options;
   options.max_iterations = 1;
-  EXPECT_FALSE(refinePatch(reference, image(shift(-1.4, 0.9)), shift(0, 0), CENTRE, CENTRE, 1, options).accepted);
+  EXPECT_FALSE(refinePatch(reference, image(shift(-1.4, 0.9)), shift(0, 0), CENTER, CENTER, 1, options).accepted);
 }
 
 TEST(PatchRefinement, RefusesOtherTexturePlainPatchesAndEdges)
@@ -116,16 +116,16 @@ TEST(PatchRefinement, RefusesOtherTexturePlainPatchesAndEdges)
   const std::vector<cv::Mat> reference = image(shift(0, 0));
   Eigen::Matrix3d other = shift(431, 977);
   other.topLeftCorner<2, 2>() << 0, 1.3, -1.3, 0;
-  EXPECT_FALSE(refinePatch(reference, image(other), shift(0, 0), CENTRE, CENTRE, 1).accepted);
+  EXPECT_FALSE(refinePatch(reference, image(other), shift(0, 0), CENTER, CENTER, 1).accepted);
 
   const std::vector<cv::Mat> plain = ImagePyramid(cv::Mat(SIDE_PX, SIDE_PX, CV_8UC1, cv::Scalar(90))).copyLevels();
-  EXPECT_FALSE(refinePatch(reference, plain, shift(0, 0), CENTRE, CENTRE, 1).accepted);
-  EXPECT_FALSE(refinePatch(plain, plain, shift(0, 0), CENTRE, CENTRE, 1).accepted);
+  EXPECT_FALSE(refinePatch(reference, plain, shift(0, 0), CENTER, CENTER, 1).accepted);
+  EXPECT_FALSE(refinePatch(plain, plain, shift(0, 0), CENTER, CENTER, 1).accepted);
 
   cv::Mat edge(SIDE_PX, SIDE_PX, CV_8UC1, cv::Scalar(40));
   edge.colRange(0, 80).setTo(200);
   const std::vector<cv::Mat> edges = ImagePyramid(edge).copyLevels();
-  EXPECT_FALSE(refinePatch(edges, edges, shift(0, 0), CENTRE, CENTRE, 1).accepted);
+  EXPECT_FALSE(refinePatch(edges, edges, shift(0, 0), CENTER, CENTER, 1).accepted);
 }
 
 TEST(PatchRefinement, RefusesPatchesOutsideTheImageAndMeaninglessWarps)
@@ -133,8 +133,8 @@ TEST(PatchRefinement, RefusesPatchesOutsideTheImageAndMeaninglessWarps)
   const std::vector<cv::Mat> pyramid = image(shift(0, 0));
   for (const Eigen::Vector2f& pixel : { Eigen::Vector2f(3, 80), Eigen::Vector2f(80, 158), Eigen::Vector2f(-500, 1e6F) })
     EXPECT_FALSE(refinePatch(pyramid, pyramid, shift(0, 0), pixel, pixel, 1).accepted);
-  EXPECT_FALSE(refinePatch(pyramid, pyramid, Eigen::Matrix3d::Zero(), CENTRE, CENTRE, 1).accepted);
-  EXPECT_FALSE(refinePatch(pyramid, pyramid, Eigen::Matrix3d::Constant(std::nan("")), CENTRE, CENTRE, 1).accepted);
+  EXPECT_FALSE(refinePatch(pyramid, pyramid, Eigen::Matrix3d::Zero(), CENTER, CENTER, 1).accepted);
+  EXPECT_FALSE(refinePatch(pyramid, pyramid, Eigen::Matrix3d::Constant(std::nan("")), CENTER, CENTER, 1).accepted);
 }
 
 TEST(PatchHomography, MapsThePlaneExactly)

@@ -40,7 +40,7 @@ TEST(DepthEdges, ThresholdGrowsWithDepth)
   EXPECT_GT(cv::countNonZero(findDepthEdges(stepFrame(2.0f, 2.041f))), 0);
 }
 
-TEST(DepthEdges, HoleMarksItsNeighboursOnly)
+TEST(DepthEdges, HoleMarksItsNeighborsOnly)
 {
   Frame frame = stepFrame(1, 1);
   frame.depth_m.at<float>(3, 2) = std::numeric_limits<float>::quiet_NaN();

@@ -33,7 +33,7 @@ void expectRefused(const RawFrame& raw, const std::string& words)
   EXPECT_NE(result.status.message.find(words), std::string::npos) << result.status.message;
 }
 
-TEST(FrameBuilder, RectifiedColourIsSharedNotCopied)
+TEST(FrameBuilder, RectifiedColorIsSharedNotCopied)
 {
   RawFrame raw = goodFrame();
   raw.camera.distortion = { 0, 0, 0, 0, 0 };
@@ -94,7 +94,7 @@ TEST(FrameBuilder, TakesTheBiasOffTheDepth)
   EXPECT_EQ(raw.depth.at<std::uint16_t>(5, 5), 2000);
 }
 
-TEST(FrameBuilder, ShiftsColourOntoDepth)
+TEST(FrameBuilder, ShiftsColorOntoDepth)
 {
   for (const std::vector<double>& distortion :
        std::vector<std::vector<double>>{ {}, { 0, 0, 0, 0, 0 }, { 1e-6, 0, 0, 0, 0 } })
@@ -224,7 +224,7 @@ cv::Point2d rectified(const geometry::PinholeCamera& camera, const cv::Point2d& 
   return out.front();
 }
 
-TEST(FrameBuilder, RectifiesColourToWhereUndistortPointsSays)
+TEST(FrameBuilder, RectifiesColorToWhereUndistortPointsSays)
 {
   for (const cv::Point spot : { cv::Point(320, 240), cv::Point(120, 90), cv::Point(560, 400), cv::Point(60, 420) })
   {

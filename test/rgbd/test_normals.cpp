@@ -158,7 +158,7 @@ TEST(Normals, SmallestRadius)
 {
   NormalOptions options;
   options.radius_px = 1;
-  options.min_neighbours = 3;
+  options.min_neighbors = 3;
   const SceneImage image = tableView(0.8, 0.7);
   const std::vector<double> errors = errors_deg(computeNormals(image.frame, options), image.normals);
   EXPECT_EQ(errors.size(), 640u * 480u);
@@ -172,7 +172,7 @@ TEST(Normals, RefusesBadOptions)
   options.radius_px = 0;
   EXPECT_THROW(computeNormals(image.frame, options), base::Error);
   options = {};
-  options.min_neighbours = 2;
+  options.min_neighbors = 2;
   EXPECT_THROW(computeNormals(image.frame, options), base::Error);
 }
 

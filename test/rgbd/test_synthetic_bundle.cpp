@@ -36,7 +36,7 @@ TEST(SyntheticBundle, IsExactWithoutNoise)
   }
 }
 
-TEST(SyntheticBundle, LandmarksAreSharedByNeighboursAndOverTheClosure)
+TEST(SyntheticBundle, LandmarksAreSharedByNeighborsAndOverTheClosure)
 {
   const SyntheticBundle bundle = makeSyntheticBundle();
   std::map<std::uint64_t, int> seen;

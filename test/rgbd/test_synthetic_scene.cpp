@@ -85,7 +85,7 @@ TEST(SyntheticScene, MaskIsTheFirstObject)
   EXPECT_GT(cv::countNonZero(first), 1000);
 }
 
-TEST(SyntheticScene, TwoViewsSeeTheSameColours)
+TEST(SyntheticScene, TwoViewsSeeTheSameColors)
 {
   const SyntheticScene scene = boxOnTable();
   const geometry::PinholeCamera camera = vgaCamera();

@@ -39,7 +39,7 @@ std::string refusal(const std::function<void()>& body)
   return "nothing was refused";
 }
 
-TEST(ImageConversion, ColourOrderOfEveryEncoding)
+TEST(ImageConversion, ColorOrderOfEveryEncoding)
 {
   const cv::Vec3b red(0, 0, 255);
   EXPECT_EQ(red, colorFromMessage(image("rgb8", 1, 1, 3, { 255, 0, 0 })).at<cv::Vec3b>(0, 0));
@@ -50,7 +50,7 @@ TEST(ImageConversion, ColourOrderOfEveryEncoding)
   EXPECT_EQ(CV_8UC1, colorFromMessage(image("8UC1", 2, 1, 2, { 7, 8 })).type());
 }
 
-TEST(ImageConversion, BayerBecomesColour)
+TEST(ImageConversion, BayerBecomesColor)
 {
   // A red scene: only the red sites of an RGGB pattern are bright.
   std::vector<std::uint8_t> data(8 * 8, 0);
@@ -79,7 +79,7 @@ TEST(ImageConversion, ByteOrderIsRespected)
   EXPECT_EQ(1000, depthFromMessage(message).at<std::uint16_t>(0, 0));
 }
 
-TEST(ImageConversion, DepthInMetres)
+TEST(ImageConversion, DepthInMeters)
 {
   const float value = 1.25f;
   std::vector<std::uint8_t> data(4);

@@ -80,7 +80,7 @@ TEST(KeyframeConversion, MasksMayBeMissing)
   EXPECT_TRUE(fromMessage(toMessage(keyframe, "s1", "cam")).frame.object_mask.empty());
 }
 
-TEST(KeyframeConversion, DepthMayComeInMillimetres)
+TEST(KeyframeConversion, DepthMayComeInMillimeters)
 {
   object_modelling::Keyframe message = toMessage(someKeyframe(), "s1", "cam");
   message.depth.encoding = "16UC1";

@@ -43,7 +43,7 @@ base::Status startAt(ObjectMaskPropagator* propagator, const rgbd::Keyframe& key
 
 }  // namespace
 
-TEST(ObjectMaskPropagator, FollowsTheObjectRoundAndLeavesItsNeighbour)
+TEST(ObjectMaskPropagator, FollowsTheObjectRoundAndLeavesItsNeighbor)
 {
   const std::vector<rgbd::Keyframe> keyframes = orbit(twoBoxes(), 18);
   ObjectMaskPropagator propagator;

@@ -54,7 +54,7 @@ TEST(ObjectVolume, ForgetsWhatMoreViewsSeeThrough)
   EXPECT_TRUE(volume.contains({ 0, 0, 1 })) << "two for, one against";
 }
 
-TEST(ObjectVolume, ForgetsWhatIsSeenAsPartOfANeighbour)
+TEST(ObjectVolume, ForgetsWhatIsSeenAsPartOfANeighbor)
 {
   ObjectVolume volume(0.005);
   volume.add(wall(1), patch());

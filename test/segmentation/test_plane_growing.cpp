@@ -38,7 +38,7 @@ TEST(PlaneGrowing, JoinsATableThatATallBoxCutsInTwo)
   EXPECT_EQ(table_planes, 1);
 }
 
-TEST(PlaneGrowing, KeepsAStepOfTwoCentimetresApart)
+TEST(PlaneGrowing, KeepsAStepOfTwoCentimetersApart)
 {
   test_support::SyntheticScene scene;
   scene.objects = { test_support::standingBox({ 0.4, 0.4, 0.02 }) };

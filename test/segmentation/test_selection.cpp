@@ -72,7 +72,7 @@ TEST(Selection, ByPoint)
   EXPECT_EQ(selectByPoint(segmentation, { 0, 0, 1 }, -1).status.code, base::StatusCode::INVALID_ARGUMENT);
 }
 
-TEST(Selection, OverlappingBoxesGoToTheNearerCentre)
+TEST(Selection, OverlappingBoxesGoToTheNearerCenter)
 {
   SceneSegmentation segmentation = threeHypotheses();
   for (Hypothesis& hypothesis : segmentation.hypotheses)
@@ -85,7 +85,7 @@ TEST(Selection, AutomaticTakesTheCentralOneOfEqualSize)
   EXPECT_EQ(selectAutomatically(threeHypotheses(), camera()).value, 1);
 }
 
-TEST(Selection, AutomaticPrefersTheLargerNearTheCentreAndAWholeOne)
+TEST(Selection, AutomaticPrefersTheLargerNearTheCenterAndAWholeOne)
 {
   SceneSegmentation segmentation = threeHypotheses();
   segmentation.hypotheses[0].pixel_count = 1000;

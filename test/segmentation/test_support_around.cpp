@@ -31,7 +31,7 @@ const cv::Rect WHOLE(0, 0, 640, 480);
 
 }  // namespace
 
-TEST(RefineSupport, MendsAnOffsetOfThreeMillimetresAndATilt)
+TEST(RefineSupport, MendsAnOffsetOfThreeMillimetersAndATilt)
 {
   const test_support::SceneImage image = view();
   for (const double height_m : { -0.003, 0.0, 0.003 })

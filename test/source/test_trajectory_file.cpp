@@ -55,7 +55,7 @@ TEST(TrajectoryFile, EmptyTrajectoryIsAFileWithAHeader)
   EXPECT_TRUE(readTrajectory(dir.path("t.txt")).empty());
 }
 
-TEST(TrajectoryFile, RoundedQuaternionIsNormalised)
+TEST(TrajectoryFile, RoundedQuaternionIsNormalized)
 {
   const std::vector<StampedPose> poses = readText("1 0 0 0 0 0 0.7071 0.7072\r\n");
   ASSERT_EQ(poses.size(), 1u);

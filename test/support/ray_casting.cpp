@@ -36,7 +36,7 @@ SceneView::SceneView(const SyntheticScene& scene, const Eigen::Isometry3d& T_wor
     body.R_object_camera = T_object_camera.linear().cast<float>();
     body.t_object_camera = T_object_camera.translation().cast<float>();
     body.instance = static_cast<int>(bodies_.size()) + 1;
-    body.centre_camera = T_object_camera.inverse(Eigen::Isometry).translation().cast<float>();
+    body.center_camera = T_object_camera.inverse(Eigen::Isometry).translation().cast<float>();
     body.radius_squared = body.half_size.squaredNorm();
     bodies_.push_back(body);
   }
@@ -136,8 +136,8 @@ Hit SceneView::cast(const Eigen::Vector3f& ray_camera) const
   for (const Body& body : bodies_)
   {
     // Squared distance of the body's centre from the ray.
-    const float along = ray_camera.dot(body.centre_camera);
-    if (body.centre_camera.squaredNorm() - along * along / ray_camera.squaredNorm() > body.radius_squared)
+    const float along = ray_camera.dot(body.center_camera);
+    if (body.center_camera.squaredNorm() - along * along / ray_camera.squaredNorm() > body.radius_squared)
       continue;
     const Eigen::Vector3f ray_object = body.R_object_camera * ray_camera;
     if (body.shape == Shape::BOX)

@@ -31,7 +31,7 @@ private:
     Eigen::Matrix3f R_object_camera;
     Eigen::Vector3f t_object_camera;
     int instance;
-    Eigen::Vector3f centre_camera;
+    Eigen::Vector3f center_camera;
     float radius_squared;  ///< of the sphere round the body
   };
 

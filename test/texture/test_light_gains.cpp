@@ -197,7 +197,7 @@ TEST_F(LightGainsOfASquare, TakeLittleNoteOfAHighlight)
   EXPECT_NEAR(gain(1, 0.02)[1], 1, 0.01);
 }
 
-TEST_F(LightGainsOfASquare, CountNoColoursThatTellNothing)
+TEST_F(LightGainsOfASquare, CountNoColorsThatTellNothing)
 {
   // Under light 1 the right half is black, and clipped under light 2.
   makeMesh(false);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "atlas.h"
-#include "colour_fill.h"
+#include "color_fill.h"
 #include "object_modelling/base/status.h"
 #include "object_modelling/mesh/mesh_topology.h"
 #include "object_modelling/mesh/triangle_raster.h"
@@ -114,7 +114,7 @@ TEST(TextureAtlas, TakesTrianglesWithoutArea)
   EXPECT_EQ(triangles, 2u);
 }
 
-TEST(ColourFill, StretchesBetweenKnownColours)
+TEST(ColorFill, StretchesBetweenKnownColors)
 {
   const mesh::TriangleMesh mesh = boxMesh(0.01, true);
   std::vector<char> known(mesh.vertices.size(), 0);
@@ -126,15 +126,15 @@ TEST(ColourFill, StretchesBetweenKnownColours)
     colors[i] = known[i] ? Eigen::Vector3f::Constant(z > 0.05f ? 200.f : 100.f) : Eigen::Vector3f::Zero();
   }
   fillHarmonically(mesh, known, &colors);
-  const auto neighbours = mesh::vertexNeighbours(mesh);
+  const auto neighbors = mesh::vertexNeighbors(mesh);
   for (std::size_t i = 0; i < known.size(); ++i)
   {
     if (known[i])
       continue;
     float sum = 0;
-    for (const std::uint32_t neighbour : neighbours[i])
-      sum += colors[neighbour][1];
-    EXPECT_NEAR(colors[i][1], sum / static_cast<float>(neighbours[i].size()), 0.01);
+    for (const std::uint32_t neighbor : neighbors[i])
+      sum += colors[neighbor][1];
+    EXPECT_NEAR(colors[i][1], sum / static_cast<float>(neighbors[i].size()), 0.01);
     EXPECT_GT(colors[i][1], 100);
     EXPECT_LT(colors[i][1], 200);
   }

@@ -82,7 +82,7 @@ TEST(Texturing, RemovesStepsOfExposureAndWhiteBalance)
   EXPECT_GT(result.seam_step_before, 2 * result.seam_step_after);
 }
 
-TEST(Texturing, KeepsTheColourOfAnOccluderOffTheObject)
+TEST(Texturing, KeepsTheColorOfAnOccluderOffTheObject)
 {
   auto scene = boxScene();
   scene.objects[0].texture = test_support::plainTexture({ 60, 60, 200 });
@@ -148,7 +148,7 @@ TEST(Texturing, MarksAndFillsWhatNobodySaw)
   EXPECT_LT(result.seen_ratio, 0.86);
 }
 
-TEST(Texturing, FollowsTheOffsetOfEachColourImage)
+TEST(Texturing, FollowsTheOffsetOfEachColorImage)
 {
   const auto scene = boxScene();
   std::vector<rgbd::View> with_offset = roundTheBox(scene, 16);

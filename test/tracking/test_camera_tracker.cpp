@@ -21,7 +21,7 @@ CameraTrackerOptions objectOptions()
 }
 }  // namespace
 
-TEST(CameraTracker, FollowsAWalkWithinMillimetres)
+TEST(CameraTracker, FollowsAWalkWithinMillimeters)
 {
   const TrackingScene scene(40);
   CameraTracker tracker;

@@ -63,7 +63,7 @@ void occlude(double ratio, rgbd::Frame* frame)
 }
 }  // namespace
 
-TEST(DenseAlignment, RecoversSeveralDegreesAndCentimetresBothWays)
+TEST(DenseAlignment, RecoversSeveralDegreesAndCentimetersBothWays)
 {
   ASSERT_GT(geometry::rotationAngle_rad(T_A_B), 0.09);
   ASSERT_GT(T_A_B.translation().norm(), 0.05);

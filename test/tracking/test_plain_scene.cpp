@@ -109,7 +109,7 @@ std::string expectHonestLoss(const Sequence& sequence, int last_must_track, int 
   return reasons;
 }
 
-int trackedWithin(const Sequence& sequence, bool by_robot, double metres, double radians)
+int trackedWithin(const Sequence& sequence, bool by_robot, double meters, double radians)
 {
   int good = 0;
   CameraTracker tracker;
@@ -119,7 +119,7 @@ int trackedWithin(const Sequence& sequence, bool by_robot, double metres, double
         by_robot ? std::make_optional(robotPose(sequence, i)) : std::nullopt;
     const TrackingResult result = tracker.track(sequence.frame(i), T_robot_camera);
     const Eigen::Isometry3d T_error = sequence.truth(i).inverse() * result.T_session_camera;
-    good += result.status == TrackingStatus::TRACKING && T_error.translation().norm() < metres &&
+    good += result.status == TrackingStatus::TRACKING && T_error.translation().norm() < meters &&
             geometry::rotationAngle_rad(T_error) < radians;
   }
   return good;

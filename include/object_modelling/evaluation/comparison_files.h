@@ -30,6 +30,6 @@ void writeHistogram(const std::string& path, const Histogram& histogram, const D
 
 /// Binary PLY of the placed points, blue where they lie on the reference to red at `red_from_m` and beyond. All
 /// writers throw base::Error (STORAGE); a file appears whole or not at all.
-void writeColouredCloud(const std::string& path, const Comparison& comparison, double red_from_m);
+void writeColoredCloud(const std::string& path, const Comparison& comparison, double red_from_m);
 
 }  // namespace object_modelling::evaluation

@@ -20,7 +20,7 @@ struct SubPixel
 };
 
 /// Whether a position has four pixels round it; false for NaN.
-inline bool hasNeighbours(const cv::Mat& image, float u_px, float v_px)
+inline bool hasNeighbors(const cv::Mat& image, float u_px, float v_px)
 {
   return u_px >= 0 && v_px >= 0 && u_px < static_cast<float>(image.cols - 1) &&
          v_px < static_cast<float>(image.rows - 1);

@@ -18,15 +18,15 @@ public:
   explicit PointIndexOf(const std::vector<Point>& points);
   ~PointIndexOf();
 
-  struct Neighbour
+  struct Neighbor
   {
     std::uint32_t index = 0;
     Scalar squared_distance = 0;
   };
   /// There must be points.
-  Neighbour nearest(const Point& query) const;
+  Neighbor nearest(const Point& query) const;
   /// The `count` nearest, at most 32, nearest first; fewer if there are fewer points.
-  void nearest(const Point& query, std::size_t count, std::vector<Neighbour>* neighbours) const;
+  void nearest(const Point& query, std::size_t count, std::vector<Neighbor>* neighbors) const;
   /// Indices of the points nearer than `radius_m`, ascending.
   std::vector<std::uint32_t> within(const Point& query, double radius_m) const;
 

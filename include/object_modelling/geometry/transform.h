@@ -28,7 +28,7 @@ Eigen::Matrix3d rotationBetween(const Eigen::Vector3d& from, const Eigen::Vector
 Eigen::Matrix3f rotationBetween(const Eigen::Vector3f& from, const Eigen::Vector3f& to);
 
 /// Re-orthonormalised copy, for products of many transforms.
-Eigen::Isometry3d normalised(const Eigen::Isometry3d& T);
+Eigen::Isometry3d normalized(const Eigen::Isometry3d& T);
 
 /// Least-squares rigid transform T_a_b with p_a = T_a_b p_b (Umeyama 1991, without scale). Needs n >= 3 columns that
 /// are not collinear; returns false for fewer or degenerate ones.

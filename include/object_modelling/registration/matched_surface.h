@@ -16,7 +16,7 @@ struct MatchedSurface
   MatchedSurface(const PartialModel& given, int threads);
 
   const PartialModel& model;
-  Eigen::Vector3f centre;  ///< session frame, m
+  Eigen::Vector3f center;  ///< session frame, m
   float radius_m;          ///< farthest point from the centre
   SurfaceField coarse;     ///< far reaching
   SurfaceField fine;

@@ -48,7 +48,7 @@ struct PartialModel
   std::vector<SpaceView> views;
   std::vector<ObjectFeatures> features;
 
-  Eigen::Vector3f centre() const;  ///< of the box of the points; zero without points
+  Eigen::Vector3f center() const;  ///< of the box of the points; zero without points
   double radius_m() const;         ///< farthest point from the centre
 };
 

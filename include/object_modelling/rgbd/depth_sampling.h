@@ -32,7 +32,7 @@ inline DepthBetween depthBetween(const cv::Mat& depth_m, const geometry::SubPixe
 inline float sampleDepth_m(const cv::Mat& depth_m, float u_px, float v_px, float max_step_ratio = 0.015F)
 {
   constexpr float MISSING = std::numeric_limits<float>::quiet_NaN();
-  if (!geometry::hasNeighbours(depth_m, u_px, v_px))
+  if (!geometry::hasNeighbors(depth_m, u_px, v_px))
     return MISSING;
   const DepthBetween depth = depthBetween(depth_m, { u_px, v_px });
   return depth.step_m <= max_step_ratio * depth.nearest_m ? depth.z_m : MISSING;

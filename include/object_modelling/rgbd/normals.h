@@ -13,7 +13,7 @@ struct NormalOptions
 {
   int radius_px = 4;                    ///< half window
   double max_depth_step_ratio = 0.015;  ///< a neighbour further than this share of depth is another surface
-  int min_neighbours = 8;               ///< of the same surface (near edges every other pixel is counted)
+  int min_neighbors = 8;                ///< of the same surface (near edges every other pixel is counted)
   std::vector<std::string> violations() const;
 };
 

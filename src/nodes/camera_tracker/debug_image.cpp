@@ -11,12 +11,12 @@ namespace object_modelling::nodes
 {
 namespace
 {
-const cv::Scalar GREEN(80, 220, 80), RED(60, 60, 230), GREY(160, 160, 160), ORANGE(0, 150, 255), BLACK(0, 0, 0);
+const cv::Scalar GREEN(80, 220, 80), RED(60, 60, 230), GRAY(160, 160, 160), ORANGE(0, 150, 255), BLACK(0, 0, 0);
 
 cv::Scalar colorOf(const TrackingState& state)
 {
   if (!state.recording)
-    return GREY;
+    return GRAY;
   const bool good = state.status == TrackingState::TRACKING || state.status == TrackingState::RELOCALISED;
   return good ? GREEN : RED;
 }

@@ -24,7 +24,7 @@ Eigen::Isometry3d uprightFrom(const registration::PartialModel& part)
       part.support_plane ? part.support_plane->normal : Eigen::Vector3d(0, -1, 0);  // of a camera held level
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() = geometry::rotationBetween(up, Eigen::Vector3d::UnitZ());
-  T.translation() = -T.linear() * part.centre().cast<double>();
+  T.translation() = -T.linear() * part.center().cast<double>();
   return T;
 }
 

@@ -37,9 +37,9 @@ void addFrustum(const SessionPreview::View& view, visualization_msgs::Marker* li
     const Eigen::Vector2d& pixel = corners[i % corners.size()];
     return toPoint(view.T_session_camera * view.camera.unproject(pixel.x(), pixel.y(), FRUSTUM_DEPTH_M));
   };
-  const geometry_msgs::Point centre = toPoint(view.T_session_camera.translation());
+  const geometry_msgs::Point center = toPoint(view.T_session_camera.translation());
   for (std::size_t i = 0; i < corners.size(); ++i)
-    lines->points.insert(lines->points.end(), { centre, corner(i), corner(i), corner(i + 1) });
+    lines->points.insert(lines->points.end(), { center, corner(i), corner(i), corner(i + 1) });
 }
 
 visualization_msgs::MarkerArray frustaOf(const std::vector<SessionPreview::View>& views, const std_msgs::Header& header)

@@ -36,9 +36,9 @@ constexpr double RAD_PER_DEG = 0.017453292519943295;
 constexpr double MAX_STEP_M = 0.5, MAX_STEP_RAD = 30 * RAD_PER_DEG;  ///< between two frames: more is a failure
 constexpr int MAX_FAILURES = 30;  ///< in a row: then the present frame is the new keyframe, where the last pose was
 
-bool within(const Eigen::Isometry3d& T, double metres, double radians)
+bool within(const Eigen::Isometry3d& T, double meters, double radians)
 {
-  return T.translation().norm() <= metres && geometry::rotationAngle_rad(T) <= radians;
+  return T.translation().norm() <= meters && geometry::rotationAngle_rad(T) <= radians;
 }
 
 cv::Ptr<Odometry> createOdometry(const std::string& method, const geometry::PinholeCamera& camera)
@@ -85,7 +85,7 @@ public:
     {
       Eigen::Matrix4d matrix;
       cv::cv2eigen(found, matrix);
-      T_keyframe_camera = geometry::normalised(Eigen::Isometry3d(matrix));
+      T_keyframe_camera = geometry::normalized(Eigen::Isometry3d(matrix));
       const Eigen::Isometry3d step = T_keyframe_camera_.inverse() * T_keyframe_camera;
       placed = within(step, MAX_STEP_M, MAX_STEP_RAD);
       last_step_ = placed ? step : Eigen::Isometry3d::Identity();

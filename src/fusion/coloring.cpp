@@ -1,4 +1,4 @@
-#include "colouring.h"
+#include "coloring.h"
 
 #include <algorithm>
 #include <cmath>
@@ -110,9 +110,9 @@ std::vector<Eigen::Vector3f> estimateGains(const std::vector<std::vector<Sample>
 
 }  // namespace
 
-std::vector<Eigen::Matrix<std::uint8_t, 3, 1>> colourSurfels(const std::vector<PreparedView>& views,
-                                                             const std::vector<Surfel>& surfels,
-                                                             double consistency_sigmas)
+std::vector<Eigen::Matrix<std::uint8_t, 3, 1>> colorSurfels(const std::vector<PreparedView>& views,
+                                                            const std::vector<Surfel>& surfels,
+                                                            double consistency_sigmas)
 {
   std::vector<cv::Mat> rim_distances_px(views.size());
 #pragma omp parallel for schedule(dynamic)

@@ -1,4 +1,4 @@
-#include "colour_fill.h"
+#include "color_fill.h"
 
 #include <Eigen/SparseCholesky>
 
@@ -29,7 +29,7 @@ void fillHarmonically(const mesh::TriangleMesh& mesh, const std::vector<char>& k
   const auto known_count = static_cast<double>(known.size()) - count;
   mean = known_count > 0 ? Eigen::Vector3d(mean / known_count) : Eigen::Vector3d(128, 128, 128);
 
-  const std::vector<std::vector<std::uint32_t>> neighbours = mesh::vertexNeighbours(mesh);
+  const std::vector<std::vector<std::uint32_t>> neighbors = mesh::vertexNeighbors(mesh);
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixXd right(count, 3);
   for (std::size_t i = 0; i < known.size(); ++i)
@@ -38,13 +38,13 @@ void fillHarmonically(const mesh::TriangleMesh& mesh, const std::vector<char>& k
     if (row < 0)
       continue;
     right.row(row) = PULL_TO_MEAN * mean.transpose();
-    entries.emplace_back(row, row, static_cast<double>(neighbours[i].size()) + PULL_TO_MEAN);
-    for (const std::uint32_t neighbour : neighbours[i])
+    entries.emplace_back(row, row, static_cast<double>(neighbors[i].size()) + PULL_TO_MEAN);
+    for (const std::uint32_t neighbor : neighbors[i])
     {
-      if (known[neighbour])
-        right.row(row) += (*colors)[neighbour].cast<double>().transpose();
+      if (known[neighbor])
+        right.row(row) += (*colors)[neighbor].cast<double>().transpose();
       else
-        entries.emplace_back(row, unknown_index[neighbour], -1.);
+        entries.emplace_back(row, unknown_index[neighbor], -1.);
     }
   }
   Eigen::SparseMatrix<double> laplacian(count, count);
