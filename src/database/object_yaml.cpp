@@ -51,7 +51,11 @@ void emitViews(YAML::Emitter& out, const ObjectModel& model)
     out << YAML::Key << "fx_px" << YAML::Value << yamlNumber(frame.camera.fx);
     out << YAML::Key << "fy_px" << YAML::Value << yamlNumber(frame.camera.fy);
     out << YAML::Key << "cx_px" << YAML::Value << yamlNumber(frame.camera.cx);
-    out << YAML::Key << "cy_px" << YAML::Value << yamlNumber(frame.camera.cy) << YAML::EndMap;
+    out << YAML::Key << "cy_px" << YAML::Value << yamlNumber(frame.camera.cy);
+    const auto session = static_cast<std::size_t>(model.views[i].session_index);
+    if (session < model.sessions.size())
+      out << YAML::Key << "session" << YAML::Value << YAML::DoubleQuoted << model.sessions[session].id;
+    out << YAML::EndMap;
   }
   out << YAML::EndSeq;
 }

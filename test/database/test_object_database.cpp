@@ -75,7 +75,7 @@ TEST_F(ObjectDatabaseTest, HasTheDocumentedFiles)
                                               "views/object_indices_00000000.txt", "views/object_indices_00000001.txt",
                                               "views/pose_00000000.txt", "views/pose_00000001.txt" }));
   for (const char* text : { "unit: metre", "handedness: right", "model_from_session:", "support_from_model:", "size_m:",
-                            "diameter_m:", "fx_px: 525", "version: 1.10" })
+                            "diameter_m:", "fx_px: 525", "version: 1.10", "session: \"first\"" })
     EXPECT_NE(files.at("object.yaml").find(text), std::string::npos) << text;
   const cv::Mat preview = cv::imread(database_.root() + "/cereal/preview.png");
   EXPECT_EQ(cv::norm(preview, makeModel("x").preview_bgr, cv::NORM_INF), 0);
