@@ -1,7 +1,8 @@
 """The report's contents, read from an object's folder."""
 import os
 
-import yaml
+from object_modelling.database import load_yaml
+from object_modelling.outcome import Failure
 
 # Limits of the traffic lights, on root mean squares over a keyframe's observations after bundle adjustment.
 GREEN_PX, AMBER_PX = 0.5, 1.0
@@ -75,13 +76,9 @@ class ObjectData:
 
 def _load(path):
     try:
-        with open(path, encoding="utf-8") as text:
-            data = yaml.load(text, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        raise ReportError("%s cannot be read: %s; build the object anew" % (path, error)) from error
-    if not isinstance(data, dict):
-        raise ReportError("%s is no description of an object; build the object anew" % path)
-    return data
+        return load_yaml(path)
+    except Failure as failure:
+        raise ReportError(failure.message) from failure
 
 
 def _keyframes(quality):
