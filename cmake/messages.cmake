@@ -13,6 +13,6 @@ add_service_files(FILES
   ExportSession.srv ImportSession.srv
   Segment.srv SelectHypothesis.srv SetRoi.srv ClearSelection.srv
   AcceptAlignment.srv RefuseAlignment.srv ForgetAlignment.srv AlignByPoints.srv ShowAlignment.srv
-  StartSession.srv StopSession.srv DiscardSession.srv BuildObject.srv ListObjects.srv Cancel.srv)
+  StartSession.srv StopSession.srv DiscardSession.srv BuildObject.srv ListObjects.srv ExportObjects.srv Cancel.srv)
 add_action_files(FILES Refine.action SegmentSession.action Align.action Build.action)
 generate_messages(DEPENDENCIES actionlib_msgs geometry_msgs sensor_msgs std_msgs)

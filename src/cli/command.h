@@ -34,6 +34,7 @@ void addCalibrateNoiseCommand(CLI::App& app, Command* chosen);
 void addCalibrateCameraCommand(CLI::App& app, Command* chosen);
 void addInfoCommand(CLI::App& app, Command* chosen);
 void addReportCommand(CLI::App& app, Command* chosen);
+void addExportCommand(CLI::App& app, Command* chosen);
 void addCompareCommand(CLI::App& app, Command* chosen);
 
 /// Options that track and model share.

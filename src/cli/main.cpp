@@ -107,6 +107,7 @@ int main(int argc, char** argv)
   cli::addCalibrateCameraCommand(app, &command);
   cli::addInfoCommand(app, &command);
   cli::addReportCommand(app, &command);
+  cli::addExportCommand(app, &command);
   cli::addCompareCommand(app, &command);
   try
   {

@@ -113,7 +113,8 @@ class ObjectModel:
         if len(self.session_ids) == 1:
             return self.session_ids * len(views)
         try:
-            by_index = {view["index"]: str(view["session_id"]) for view in load_yaml(self.path("quality.yaml"))["views"]}
+            quality = load_yaml(self.path("quality.yaml"))
+            by_index = {view["index"]: str(view["session_id"]) for view in quality["views"]}
             return [by_index[view["index"]] for view in views]
         except (Failure, KeyError, TypeError):
             return [None] * len(views)
@@ -147,8 +148,8 @@ class Database:
         self.root = os.path.abspath(os.path.expanduser(root))
         path = os.path.join(self.root, "manifest.yaml")
         if not os.path.isfile(path):
-            raise Failure(Code.NOT_FOUND, "'%s' is no object database, as it has no manifest.yaml: name the folder that "
-                          "was given as --database when the objects were built" % root)
+            raise Failure(Code.NOT_FOUND, "'%s' is no object database, as it has no manifest.yaml: name the folder "
+                          "that was given as --database when the objects were built" % root)
         manifest = load_yaml(path)
         if manifest.get("schema_version") not in SCHEMA_VERSIONS:
             raise Failure(Code.STORAGE, "%s has schema version %s, but this program knows %s: use a newer one" % (
@@ -156,7 +157,8 @@ class Database:
         try:
             self._hashes = {str(entry["id"]): str(entry["content_hash"]) for entry in manifest["objects"] or []}
         except (KeyError, TypeError) as error:
-            raise Failure(Code.BAD_INPUT, "%s lacks %s: see 'object_modelling info %s'" % (path, error, root)) from error
+            raise Failure(Code.BAD_INPUT, "%s lacks %s: see 'object_modelling info %s'" % (path, error, root)) \
+                from error
 
     def object_ids(self):
         return sorted(self._hashes)

@@ -108,7 +108,7 @@ def _first_tetrahedron(points, tolerance):
 
 
 def decimated(mesh, max_triangles):
-    """Vertices of one cell of a grid become one, at the place nearest to the planes of their triangles. Without texture."""
+    """Vertices of one cell of a grid become one, nearest to the planes of their triangles. Without texture."""
     if len(mesh.triangles) <= max_triangles:
         return mesh
     coarse, fine = 1, MAX_CELLS_PER_AXIS
@@ -147,7 +147,8 @@ def _clustered(mesh, cells_per_axis):
     colours = None
     if mesh.colours is not None:
         colours = np.round(_sums(cluster, mesh.colours, len(counts)) / counts[:, None])[used].astype(np.uint8)
-    reduced = Mesh(_cluster_positions(mesh, cluster, counts, cell_size)[used], triangles.reshape(-1, 3), colours=colours)
+    positions = _cluster_positions(mesh, cluster, counts, cell_size)[used]
+    reduced = Mesh(positions, triangles.reshape(-1, 3), colours=colours)
     reduced.normals = vertex_normals(reduced)
     return reduced
 

@@ -1,5 +1,6 @@
 """The real recording end to end: a carton of about 70 x 200 x 300 mm on a turntable, 11.5 degrees a frame."""
 
+import json
 import os
 import tempfile
 import unittest
@@ -53,6 +54,18 @@ class CerealBoxTest(unittest.TestCase):
         for name in ("object.yaml", "cloud.pcd", "mesh/mesh.ply", "mesh/mesh.obj", "mesh/textured.obj",
                      "mesh/textured.png", "mesh/textured.glb", "preview.png"):
             self.assertGreater(os.path.getsize(os.path.join(folder, name)), 100, name)
+
+    def test_exports_are_made_beside_the_objects(self):
+        for format_name, name in (("bop", "onboarding_static/obj_000001_up/scene_gt.json"),
+                                  ("urdf", "cereal_box/cereal_box.urdf"), ("ply", "cereal_box/cereal_box.png")):
+            folder = run_json("export", self.database, "--format", format_name)["folder"]
+            self.assertEqual(folder, os.path.join(self.database, "exports", format_name))
+            self.assertGreater(os.path.getsize(os.path.join(folder, name)), 100)
+        with open(os.path.join(self.database, "exports", "bop", "onboarding_static", "obj_000001_up",
+                               "scene_gt_info.json")) as text:
+            fractions = [info[0]["visib_fract"] for info in json.load(text).values()]
+        self.assertGreater(sorted(fractions)[len(fractions) // 2], 0.8)  # masks and poses fit each other
+        self.assertEqual(run_json("info", self.database)["problems"], [])
 
     def test_the_store_keeps_the_session(self):
         sessions = run_json("info", self.store)["sessions"]

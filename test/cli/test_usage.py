@@ -26,9 +26,10 @@ class UsageTest(unittest.TestCase):
 
     def test_help_names_every_command(self):
         text = run("--help").stdout
-        for word in ("track", "model", "align", "calibrate_noise", "calibrate_camera", "info", "compare", "report", "Exit codes"):
+        for word in ("track", "model", "align", "calibrate_noise", "calibrate_camera", "info", "compare", "report", "export",
+                     "Exit codes"):
             self.assertIn(word, text)
-        for command in ("track", "model", "align", "calibrate_noise", "calibrate_camera", "info", "compare", "report"):
+        for command in ("track", "model", "align", "calibrate_noise", "calibrate_camera", "info", "compare", "report", "export"):
             finished = run(command, "--help")
             self.assertEqual(finished.returncode, 0)
             self.assertGreater(len(finished.stdout.splitlines()), 5)
@@ -39,6 +40,20 @@ class UsageTest(unittest.TestCase):
         self.assert_refused(run("track"), "recording", code=2)
         self.assert_refused(run("track", CEREAL_BOX, "--reference", "moon"), "reference", code=2)
         self.assert_refused(run("model", "box", CEREAL_BOX), "database", code=2)
+
+    def test_exports_that_cannot_be(self):
+        database = self.path("objects")
+        self.assert_refused(run("export", database), "format", code=2)
+        self.assert_refused(run("export", database, "--format", "stl", "--unit", "inch"), "unit", code=2)
+        self.assert_refused(run("export", database, "--format", "stl"), database, "manifest.yaml")
+        self.assert_refused(run("export", database, "--format", "wrl"), "'wrl'", "bop")
+        self.assertEqual(os.listdir(self.folder.name), [])
+        listed = run("export", database, "--format", "list")
+        self.assertEqual(listed.returncode, 0, listed.stderr)
+        for word in ("bop", "urdf", "foundationpose"):
+            self.assertIn(word, listed.stdout)
+        failure = run("export", database, "--format", "stl", "--json")
+        self.assertEqual(json.loads(failure.stdout)["status"]["code"], 2)
 
     def test_align_names_what_is_missing(self):
         store = self.path("typed_wrongly.sqlite")

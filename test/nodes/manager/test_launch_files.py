@@ -7,7 +7,7 @@ import roslaunch.xmlloader
 
 LAUNCH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "launch")
 NODES = {"camera_tracker", "keyframe_store", "segmenter", "refiner", "session_aligner", "model_builder",
-         "modelling_manager"}
+         "exporter", "modelling_manager"}
 
 
 def load(name, *arguments):
@@ -43,7 +43,8 @@ class LaunchFilesTest(unittest.TestCase):
         self.assertEqual(parameter(config, "keyframe_store/store_path"), "/s")
         self.assertEqual(parameter(config, "camera_tracker/noise_model"), "/n")
         self.assertEqual(parameter(config, "segmenter/noise_model"), "/n")
-        self.assertEqual(parameter(config, "model_builder/database_path"), "/d")
+        for node in ("model_builder", "exporter"):
+            self.assertEqual(parameter(config, node + "/database_path"), "/d")
         tracker = [node for node in config.nodes if node.name == "camera_tracker"][0]
         remaps = dict(tracker.remap_args)
         self.assertEqual(remaps["rgb/image_rect_color"], "/kinect/rgb/image_rect_color")
@@ -53,7 +54,7 @@ class LaunchFilesTest(unittest.TestCase):
         config = load("object_modelling.launch")
         for key in ("camera_tracker/tracker/seed", "keyframe_store/preview/voxel_size_m", "segmenter/scene/min_height_m",
                     "refiner/bundle_adjustment/seed", "session_aligner/store/node", "model_builder/fusion/min_views",
-                    "modelling_manager/service_wait_s"):
+                    "modelling_manager/service_wait_s", "exporter/database_path"):
             parameter(config, key)
 
     def test_alignment_review(self):

@@ -1,0 +1,8 @@
+"""The mesh as OBJ, MTL and PNG."""
+from object_modelling.exporters import textures
+
+UNITS = {"m": 1.0, "mm": 1000.0}
+
+
+def export(model, folder, unit="m"):
+    textures.write_obj(model.best_mesh().scaled(UNITS[unit]), folder, model.id)
