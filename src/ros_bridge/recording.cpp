@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "object_modelling/source/bop_scene.h"
+
 namespace object_modelling::ros_bridge
 {
 namespace
@@ -12,7 +14,8 @@ namespace fs = std::filesystem;
 {
   throw base::Error(base::StatusCode::BAD_INPUT, path + ": " + reason +
                                                      "; a recording is a TUM-style folder (rgb.txt, depth.txt, "
-                                                     "camera.yaml) or a ROS bag (.bag)");
+                                                     "camera.yaml), a scene of BOP (scene_camera.json) or a ROS bag "
+                                                     "(.bag)");
 }
 }  // namespace
 
@@ -21,6 +24,8 @@ std::unique_ptr<source::FrameSource> openRecording(const std::string& path, cons
   std::error_code ignored;
   if (!fs::exists(path, ignored))
     throw base::Error(base::StatusCode::NOT_FOUND, path + ": there is no such recording");
+  if (fs::is_directory(path, ignored) && source::isBopScene(path))
+    return source::openBopScene(path);
   if (fs::is_directory(path, ignored))
     return source::openTumFolder(path, options.folder);
   const std::string extension = fs::path(path).extension().string();

@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "camera_file.h"
+#include "image_file.h"
 #include "object_modelling/base/atomic_file.h"
 #include "object_modelling/base/options.h"
 #include "recording_list.h"
@@ -19,32 +20,6 @@ namespace object_modelling::source
 namespace
 {
 namespace fs = std::filesystem;
-
-bool isJpeg(const std::string& bytes)
-{
-  return bytes.size() > 2 && bytes.compare(0, 2, "\xff\xd8") == 0;
-}
-
-/// Whether a JPEG is truncated: its end marker is missing. The decoder fills it up with gray and reports no error.
-bool cutOffJpeg(const std::string& bytes)
-{
-  return isJpeg(bytes) &&
-         bytes.find("\xff\xd9", bytes.size() - std::min<std::size_t>(bytes.size(), 64)) == std::string::npos;
-}
-
-cv::Mat readImage(const std::string& path, int flags)
-{
-  const std::string bytes = base::readTextFile(path);
-  cv::Mat image;
-  if (!bytes.empty() && !cutOffJpeg(bytes))
-  {
-    const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
-    image = cv::imdecode(buffer, flags);
-  }
-  if (image.empty())
-    throw badInput(path, "is not a readable image (" + std::to_string(bytes.size()) + " bytes): damaged or cut off?");
-  return image;
-}
 
 /// Decodes one frame ahead in the background; that costs nothing while the caller works on the frame before.
 class TumFolder : public FrameSource
