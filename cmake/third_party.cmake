@@ -1,5 +1,5 @@
 # Third-party libraries as INTERFACE targets with SYSTEM include directories: their headers warn, ours may not.
-find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs features2d calib3d video)
+find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs flann features2d calib3d video)
 find_package(PCL REQUIRED COMPONENTS common search kdtree features filters io surface)
 if(TARGET VTK::jsoncpp AND NOT TARGET JsonCpp::JsonCpp)
   # Debian 13: VTK's targets that PCL asks for link JsonCpp, but do not find it.

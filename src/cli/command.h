@@ -36,6 +36,7 @@ void addInfoCommand(CLI::App& app, Command* chosen);
 void addReportCommand(CLI::App& app, Command* chosen);
 void addExportCommand(CLI::App& app, Command* chosen);
 void addCompareCommand(CLI::App& app, Command* chosen);
+void addRecogniseCommand(CLI::App& app, Command* chosen);
 
 /// Options that track and model share.
 struct RecordArguments

@@ -109,6 +109,7 @@ int main(int argc, char** argv)
   cli::addReportCommand(app, &command);
   cli::addExportCommand(app, &command);
   cli::addCompareCommand(app, &command);
+  cli::addRecogniseCommand(app, &command);
   try
   {
     app.parse(argc, argv);
