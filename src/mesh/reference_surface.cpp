@@ -1,8 +1,5 @@
 #include "object_modelling/mesh/reference_surface.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <vtkCellArray.h>
 #include <vtkCellLocator.h>
 #include <vtkGenericCell.h>
@@ -11,6 +8,7 @@
 #include <vtkSmartPointer.h>
 
 #include "object_modelling/base/status.h"
+#include "object_modelling/mesh/surface_sampling.h"
 
 namespace object_modelling::mesh
 {
@@ -31,31 +29,6 @@ void check(const TriangleMesh& mesh)
     refuse("its triangles have no area");
 }
 
-/// Evenly over the area: equal steps along the sum of areas, a low-discrepancy sequence inside the triangles.
-std::vector<Eigen::Vector3d> sampleEvenly(const TriangleMesh& mesh)
-{
-  constexpr double GOLDEN_RATIO = 0.6180339887498949;
-  const double step_m2 = surfaceArea_m2(mesh) / SAMPLE_COUNT;
-  std::vector<Eigen::Vector3d> samples;
-  samples.reserve(SAMPLE_COUNT + 1);
-  double due_m2 = step_m2 / 2;
-  for (const auto& triangle : mesh.triangles)
-  {
-    const Eigen::Vector3d a = mesh.vertices[triangle[0]].cast<double>();
-    const Eigen::Vector3d b = mesh.vertices[triangle[1]].cast<double>() - a;
-    const Eigen::Vector3d c = mesh.vertices[triangle[2]].cast<double>() - a;
-    const double area_m2 = b.cross(c).norm() / 2;
-    for (; due_m2 < area_m2; due_m2 += step_m2)
-    {
-      const auto index = static_cast<double>(samples.size());
-      const double r = std::sqrt(std::fmod((index + 0.5) * GOLDEN_RATIO, 1.0));
-      const double s = std::fmod((index + 0.5) * GOLDEN_RATIO * GOLDEN_RATIO * M_SQRT2, 1.0);
-      samples.push_back(a + r * (1 - s) * b + r * s * c);
-    }
-    due_m2 -= area_m2;
-  }
-  return samples;
-}
 }  // namespace
 
 class ReferenceSurface::Locator
@@ -102,7 +75,8 @@ ReferenceSurface::ReferenceSurface(const TriangleMesh& mesh)
 {
   check(mesh);
   locator_ = std::make_unique<Locator>(mesh);
-  samples_ = sampleEvenly(mesh);
+  for (const SurfaceSample& sample : sampleEvenly(mesh, SAMPLE_COUNT))
+    samples_.push_back(pointAt(mesh, sample));
   triangle_count_ = mesh.triangles.size();
   Eigen::AlignedBox3d box;
   for (const auto& triangle : mesh.triangles)
