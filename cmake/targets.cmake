@@ -1,7 +1,7 @@
 # Libraries, lowest layer first. README.md, docs/architecture.md and test/architecture read the same order.
 set(OBJECT_MODELLING_LIBRARIES
   base geometry mesh rgbd source features registration tracking segmentation calibration keyframes bundle_adjustment
-  multi_view_icp fusion surface texture evaluation alignment database recognition report pipeline)
+  multi_view_icp fusion surface texture evaluation object_properties alignment database recognition report pipeline)
 set(OBJECT_MODELLING_EXPORTED_LIBRARIES)
 foreach(_library ${OBJECT_MODELLING_LIBRARIES})
   list(APPEND OBJECT_MODELLING_EXPORTED_LIBRARIES object_modelling_${_library})
