@@ -116,9 +116,9 @@ SelfDistance SelfComparison::roughDistance(const Eigen::Isometry3d& T) const
   std::size_t probed = 0;
   for (std::size_t i = 0; i < points_.size(); i += ROUGH_STEP)
   {
+    ++probed;
     if (seen_[i] == 0)
       continue;
-    ++probed;
     const Eigen::Vector3f p = turn * points_[i];
     const std::uint32_t nearest = index_->nearest(p).index;
     if (seen_[nearest] == 0)
@@ -138,9 +138,9 @@ SelfDistance SelfComparison::distance(const Eigen::Isometry3d& T) const
   std::size_t probed = 0;
   for (std::size_t i = 0; i < points_.size(); i += EXACT_STEP)
   {
+    ++probed;
     if (seen_[i] == 0)
       continue;
-    ++probed;
     const Eigen::Vector3d p = T * points_[i].cast<double>();
     if (seen_[index_->nearest(p.cast<float>()).index] > 0)
       distances_m.push_back(reference_.distance_m(p));

@@ -25,7 +25,7 @@ struct SelfDistance
 {
   double rms_m = 0;
   double quantile_95_m = 0;
-  double counted_ratio = 0;  ///< of the seen surface that came to lie on seen surface
+  double counted_ratio = 0;  ///< of the surface that was seen and came to lie on seen surface
 };
 
 /// One surface compared with itself after a rotation; what no camera saw is left out on either side.

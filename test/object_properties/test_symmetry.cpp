@@ -159,6 +159,16 @@ TEST(Symmetry, WhatNobodySawDoesNotCount)
   EXPECT_TRUE(has(symmetries, 2, Eigen::Vector3d::UnitZ())) << text(symmetries);
 }
 
+TEST(Symmetry, OfALittleNothingIsClaimed)
+{
+  mesh::TriangleMesh mesh = box({ 0.2f, 0.13f, 0.06f }, 24);
+  mesh.seen.assign(mesh.vertices.size(), 0);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    if (mesh.vertices[i].x() > 0.0999f)
+      mesh.seen[i] = 1;
+  EXPECT_TRUE(found(mesh).empty()) << text(found(mesh));
+}
+
 TEST(Symmetry, OfNothing)
 {
   EXPECT_TRUE(findSymmetries({}).empty());

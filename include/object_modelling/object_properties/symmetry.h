@@ -32,7 +32,7 @@ struct SymmetryOptions
   double tolerance_ratio = 0.01;     ///< of error_m in the diameter, for large ones; the greater of the two counts
   double max_quantile_ratio = 2;     ///< 95 % of the surface are no further off than that many tolerances
   double max_color_difference = 20;  ///< of 255: rms over the surface, light taken off
-  double min_counted_ratio = 0.5;    ///< of the seen surface that must come to lie on seen surface
+  double min_counted_ratio = 0.3;    ///< of the surface that must have been seen and come to lie on seen surface
   int max_order = 6;                 ///< of discrete symmetries
   std::vector<std::string> violations() const;
 };
