@@ -69,10 +69,12 @@ void checkWritable(const std::string& path, const std::string& part)
 
 }  // namespace
 
-void writeMesh(const std::string& path, const TriangleMesh& mesh)
+void writeMesh(const std::string& path, const TriangleMesh& mesh, const std::vector<float>& sigmas_m)
 {
   const Format format = formatOf(path);
-  const std::string defect = defectOf(mesh);
+  std::string defect = defectOf(mesh);
+  if (defect.empty() && !sigmas_m.empty() && sigmas_m.size() != mesh.vertices.size())
+    defect = "it has not as many standard deviations as vertices";
   if (!defect.empty())
     throw base::Error(base::StatusCode::INVALID_ARGUMENT, "no mesh for '" + path + "': " + defect);
 
@@ -81,7 +83,7 @@ void writeMesh(const std::string& path, const TriangleMesh& mesh)
   checkWritable(path, part);
   try
   {
-    format == Format::PLY ? writePly(part, mesh) : writeObj(part, mesh);
+    format == Format::PLY ? writePly(part, mesh, sigmas_m) : writeObj(part, mesh);
     fs::rename(part, path);
   }
   catch (const fs::filesystem_error& error)

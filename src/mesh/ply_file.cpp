@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
-#include <system_error>
+#include <fstream>
+#include <string>
 
 #include <pcl/PolygonMesh.h>
 #include <pcl/conversions.h>
@@ -15,8 +15,6 @@ namespace object_modelling::mesh
 {
 namespace
 {
-using Point = pcl::PointXYZRGBNormal;
-
 bool hasField(const pcl::PCLPointCloud2& cloud, const std::string& name)
 {
   return std::any_of(cloud.fields.begin(), cloud.fields.end(),
@@ -37,63 +35,65 @@ float floatAt(const pcl::PCLPointCloud2& cloud, std::size_t point, std::size_t o
   return value;
 }
 
-/// The writer takes every field of the cloud for a property of the file.
-void keepFields(bool normals, bool colors, pcl::PCLPointCloud2* cloud)
+/// Of the field "seen", an unsigned byte: 0 where it is not.
+std::vector<std::uint8_t> marksOf(const pcl::PCLPointCloud2& cloud)
 {
-  const auto unwanted = [&](const pcl::PCLPointField& field)
-  {
-    return field.name == "curvature" || (!colors && field.name == "rgb") ||
-           (!normals && field.name.rfind("normal_", 0) == 0);
-  };
-  cloud->fields.erase(std::remove_if(cloud->fields.begin(), cloud->fields.end(), unwanted), cloud->fields.end());
+  const std::size_t offset = offsetOf(cloud, "seen"), count = static_cast<std::size_t>(cloud.width) * cloud.height;
+  std::vector<std::uint8_t> seen(count, 1);
+  for (std::size_t i = 0; i < count; ++i)
+    seen[i] = cloud.data[i * cloud.point_step + offset] != 0 ? 1 : 0;
+  return seen;
 }
 
-/// What no camera saw is transparent: a property of its own is none that the library would write.
-void makeTransparent(pcl::PCLPointCloud2* cloud)
+template <typename Value>
+void append(const Value* values, std::size_t count, std::string* bytes)
 {
-  for (pcl::PCLPointField& field : cloud->fields)
-    if (field.name == "rgb")
-    {
-      field.name = "rgba";
-      field.datatype = pcl::PCLPointField::UINT32;
-    }
+  static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the format is written as it lies in memory");
+  bytes->append(reinterpret_cast<const char*>(values), count * sizeof(Value));
+}
+
+std::string header(const TriangleMesh& mesh, bool sigmas)
+{
+  std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.vertices.size()) +
+                     "\nproperty float x\nproperty float y\nproperty float z\n";
+  if (!mesh.normals.empty())
+    text += "property float nx\nproperty float ny\nproperty float nz\n";
+  if (!mesh.colors.empty())
+    text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  if (sigmas)
+    text += "property float sigma_m\n";
+  if (!mesh.seen.empty())
+    text += "property uchar seen\n";
+  return text + "element face " + std::to_string(mesh.triangles.size()) +
+         "\nproperty list uchar int vertex_indices\nend_header\n";
 }
 
 }  // namespace
 
-void writePly(const std::string& path, const TriangleMesh& mesh)
+void writePly(const std::string& path, const TriangleMesh& mesh, const std::vector<float>& sigmas_m)
 {
-  const bool normals = !mesh.normals.empty(), colors = !mesh.colors.empty();
-  const bool marked = colors && !mesh.seen.empty();
-  pcl::PointCloud<Point> points;
-  points.resize(mesh.vertices.size());
+  std::string bytes = header(mesh, !sigmas_m.empty());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
   {
-    points[i].getVector3fMap() = mesh.vertices[i];
-    if (normals)
-      points[i].getNormalVector3fMap() = mesh.normals[i];
-    if (colors)
-    {
-      points[i].r = mesh.colors[i][0];
-      points[i].g = mesh.colors[i][1];
-      points[i].b = mesh.colors[i][2];
-      points[i].a = marked && mesh.seen[i] == 0 ? 0 : 255;
-    }
+    append(mesh.vertices[i].data(), 3, &bytes);
+    if (!mesh.normals.empty())
+      append(mesh.normals[i].data(), 3, &bytes);
+    if (!mesh.colors.empty())
+      append(mesh.colors[i].data(), 3, &bytes);
+    if (!sigmas_m.empty())
+      append(&sigmas_m[i], 1, &bytes);
+    if (!mesh.seen.empty())
+      append(&mesh.seen[i], 1, &bytes);
   }
-  pcl::PolygonMesh polygons;
-  pcl::toPCLPointCloud2(points, polygons.cloud);
-  keepFields(normals, colors, &polygons.cloud);
-  if (marked)
-    makeTransparent(&polygons.cloud);
-  polygons.polygons.resize(mesh.triangles.size());
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    polygons.polygons[i].vertices.assign(mesh.triangles[i].begin(), mesh.triangles[i].end());
-
-  // The library does not look at the state of its stream: a full disk shows in the size of the file only.
-  const std::size_t vertex_bytes = 12 + (normals ? 12 : 0) + (colors ? 3 : 0) + (marked ? 1 : 0), triangle_bytes = 13;
-  const std::size_t body_bytes = mesh.vertices.size() * vertex_bytes + mesh.triangles.size() * triangle_bytes;
-  std::error_code error;
-  if (pcl::io::savePLYFileBinary(path, polygons) != 0 || std::filesystem::file_size(path, error) < body_bytes || error)
+  for (const auto& triangle : mesh.triangles)
+  {
+    bytes.push_back(3);
+    append(triangle.data(), 3, &bytes);
+  }
+  std::ofstream file(path, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file)
     throw base::Error(base::StatusCode::STORAGE, "writing '" + path + "' failed: is the disk full?");
 }
 
@@ -129,10 +129,12 @@ TriangleMesh readPly(const std::string& path)
     for (const auto& color : cloud)
     {
       mesh.colors.push_back({ color.r, color.g, color.b });
-      if (marked)
+      if (marked)  // of files of before, which had what no camera saw transparent
         mesh.seen.push_back(color.a != 0 ? 1 : 0);
     }
   }
+  if (hasField(polygons.cloud, "seen"))
+    mesh.seen = marksOf(polygons.cloud);
   for (const pcl::Vertices& polygon : polygons.polygons)
   {
     for (std::size_t k = 2; k < polygon.vertices.size(); ++k)

@@ -182,6 +182,11 @@ TEST(MeshFile, PlyKeepsWhatNoCameraSaw)
   EXPECT_EQ(read.normals, mesh.normals);
   EXPECT_EQ(read.colors, mesh.colors);
   EXPECT_EQ(read.triangles, mesh.triangles);
+  const std::vector<float> sigmas_m(mesh.vertices.size(), 0.0005f);
+  writeMesh(path, mesh, sigmas_m);
+  EXPECT_EQ(readMesh(path).seen, mesh.seen);
+  EXPECT_EQ(readMesh(path).colors, mesh.colors);
+  EXPECT_EQ(codeOf([&] { writeMesh(path, mesh, { 1 }); }), base::StatusCode::INVALID_ARGUMENT);
   mesh.seen.pop_back();
   EXPECT_EQ(codeOf([&] { writeMesh(path, mesh); }), base::StatusCode::INVALID_ARGUMENT);
 }
