@@ -1,9 +1,12 @@
+#include <cmath>
 #include <filesystem>
 
 #include "content_hash.h"
 #include "manifest.h"
 #include "object_modelling/database/object_database.h"
+#include "object_modelling/mesh/mesh_files.h"
 #include "object_yaml.h"
+#include "properties_yaml.h"
 #include "yaml_text.h"
 
 namespace object_modelling::database
@@ -13,6 +16,7 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr double RIGID_TOLERANCE = 1e-6;
+constexpr double PROBABILITY_TOLERANCE = 1e-4;
 
 using Problems = std::vector<std::string>;
 
@@ -45,6 +49,44 @@ void checkFrames(const std::string& path, const ObjectEntry& entry, Problems* pr
     check(T_support_model, "support_from_model");
   for (const ModelSession& session : entry.sessions)
     check(session.T_model_session, "model_from_session of session '" + session.id + "'");
+}
+
+void checkProperties(const std::string& path, const ObjectEntry& entry, Problems* problems)
+{
+  const auto require = [&](bool holds, const std::string& what)
+  {
+    if (!holds)
+      problems->push_back(path + ": " + what);
+  };
+  const object_properties::ObjectProperties& properties = *entry.properties;
+  require(isFinite(properties), "mass_properties, resting_poses or symmetries have numbers that are not finite");
+  require(properties.mass.volume_m3 >= 0 && properties.mass.mass_kg >= 0 &&
+              properties.mass.inertia_per_density_m5.isApprox(properties.mass.inertia_per_density_m5.transpose(), 1e-6),
+          "mass_properties: volume and mass must not be negative, the inertia must be symmetric");
+  double probability = properties.resting_poses.empty() ? 1 : 0;
+  for (const object_properties::RestingPose& pose : properties.resting_poses)
+  {
+    require(rigid(pose.T_support_model), "resting_poses/support_from_model is no rigid transform");
+    probability += pose.probability;
+  }
+  require(std::abs(probability - 1) < PROBABILITY_TOLERANCE, "the probabilities of resting_poses do not add up to 1");
+  for (const object_properties::Symmetry& symmetry : properties.symmetries)
+    require(std::abs(symmetry.axis.norm() - 1) < PROBABILITY_TOLERANCE && symmetry.order >= 0 && symmetry.order != 1 &&
+                symmetry.error_m >= 0,
+            "a symmetry has an axis that is not of unit length, an order of 1 or less, or a negative error");
+  if (properties.unseen)
+    require(properties.unseen->ratio >= 0 && properties.unseen->ratio <= 1, "unseen/ratio is not within [0, 1]");
+}
+
+/// Files that object.yaml promises by a key must also be in its list.
+void checkPromised(const std::string& folder, const ObjectDescription& object, Problems* problems)
+{
+  for (const std::string& file : object.entry.collision_paths)
+    if (object.file_hashes.count(file.substr(folder.size() + 1)) == 0)
+      problems->push_back(folder + "/object.yaml: collision_parts promises " + file + ", which it does not list");
+  if (object.entry.properties && object.entry.properties->unseen && fs::exists(object.entry.mesh_path) &&
+      mesh::readMesh(object.entry.mesh_path).seen.empty())
+    problems->push_back(object.entry.mesh_path + " lacks the vertex property 'seen', but object.yaml has 'unseen'");
 }
 
 void checkLeftOut(const std::string& path, const ObjectEntry& entry, bool listed_partial, Problems* problems)
@@ -95,6 +137,9 @@ void checkObject(const std::string& folder, const std::string& id, const ListedO
   checkFrames(path, object.entry, problems);
   checkLeftOut(path, object.entry, listed.partial, problems);
   checkFiles(folder, object.file_hashes, problems);
+  if (object.entry.properties)
+    checkProperties(path, object.entry, problems);
+  checkPromised(folder, object, problems);
   const Problems of_report = checkReport(folder);
   problems->insert(problems->end(), of_report.begin(), of_report.end());
 }

@@ -15,7 +15,9 @@
 #include "object_files.h"
 #include "object_modelling/base/atomic_file.h"
 #include "object_modelling/keyframes/session.h"
+#include "object_revision.h"
 #include "object_yaml.h"
+#include "yaml_text.h"
 
 namespace object_modelling::database
 {
@@ -193,6 +195,49 @@ void ObjectDatabase::remove(const std::string& object_id)
              throw notFound(root_, object_id);
            commitRemoval(root_, object_id);
          });
+}
+
+void ObjectDatabase::rename(const std::string& object_id, const std::string& new_id)
+{
+  checkObjectId(object_id);
+  checkObjectId(new_id);
+  const base::JobControl control;
+  change(root_, object_id, control,
+         [&]
+         {
+           const Manifest manifest = readManifest(manifestPath(root_));
+           const auto listed = manifest.objects.find(object_id);
+           if (listed == manifest.objects.end())
+             throw notFound(root_, object_id);
+           if (manifest.objects.count(new_id) > 0)
+             throw Error(StatusCode::INVALID_ARGUMENT, "there is an object '" + new_id + "' already");
+           const std::string folder = makeTemporaryFolder(root_, new_id);
+           const std::string text = copyRenamed(root_ + "/" + object_id, folder, object_id, new_id);
+           syncFolder(folder);
+           // In this order: a crash between leaves both.
+           commitObject(root_, new_id, { hashOfText(text), listed->second.partial });
+           commitRemoval(root_, object_id);
+         });
+}
+
+bool ObjectDatabase::migrate(const std::string& object_id, base::JobControl& control)
+{
+  if (entry(object_id).schema_version >= SCHEMA_VERSION)
+    return false;
+  change(root_, object_id, control,
+         [&]
+         {
+           const Manifest manifest = readManifest(manifestPath(root_));
+           const auto listed = manifest.objects.find(object_id);
+           if (listed == manifest.objects.end())
+             throw notFound(root_, object_id);
+           const std::string folder = makeTemporaryFolder(root_, object_id);
+           const std::string text = copyMigrated(root_ + "/" + object_id, folder, control);
+           syncFolder(folder);
+           control.checkCancelled();
+           commitObject(root_, object_id, { hashOfText(text), listed->second.partial });
+         });
+  return true;
 }
 
 }  // namespace object_modelling::database

@@ -13,6 +13,7 @@
 #include "object_modelling/mesh/mesh_files.h"
 #include "object_modelling/mesh/textured_mesh_files.h"
 #include "pcd_files.h"
+#include "properties_yaml.h"
 #include "yaml_text.h"
 
 namespace object_modelling::database
@@ -106,6 +107,8 @@ void checkModel(const ObjectModel& model)
     finite &= T_support_model.matrix().allFinite();
   for (const ModelSession& session : model.sessions)
     finite &= session.T_model_session.matrix().allFinite();
+  if (model.properties && !isFinite(*model.properties))
+    refuse(model, "one of its properties is not finite");
   if (!finite)
     refuse(model, "its size or one of its poses is not finite");
   if (!model.preview_bgr.empty() && model.preview_bgr.type() != CV_8UC3)
@@ -116,6 +119,12 @@ void checkModel(const ObjectModel& model)
     checkView(model, i);
 }
 
+void writeCollisionParts(const std::string& folder, const object_properties::ObjectProperties& properties)
+{
+  for (std::size_t i = 0; i < properties.collision_parts.size(); ++i)
+    mesh::writeMesh(folder + "/" + collisionFile(static_cast<int>(i)), properties.collision_parts[i]);
+}
+
 void writeObjectFiles(const std::string& folder, const ObjectModel& model, base::JobControl& control)
 {
   namespace fs = std::filesystem;
@@ -124,8 +133,10 @@ void writeObjectFiles(const std::string& folder, const ObjectModel& model, base:
   fs::create_directory(folder + "/mesh");
   fs::create_directory(folder + "/views");
   control.report(stage, 0, total);
-  mesh::writeMesh(folder + "/mesh/mesh.ply", model.mesh);
+  mesh::writeMesh(folder + "/mesh/mesh.ply", model.mesh, model.mesh_sigmas_m);
   mesh::writeMesh(folder + "/mesh/mesh.obj", model.mesh);
+  if (model.properties)
+    writeCollisionParts(folder, *model.properties);
   if (!model.textured.empty())
   {
     mesh::writeTexturedMesh(folder + "/mesh/textured.obj", model.textured);

@@ -3,17 +3,13 @@
 #include "content_hash.h"
 #include "object_modelling/base/atomic_file.h"
 #include "object_modelling/base/status.h"
+#include "properties_yaml.h"
 #include "yaml_text.h"
 
 namespace object_modelling::database
 {
 namespace
 {
-void emitVector(YAML::Emitter& out, const Eigen::Vector3d& v)
-{
-  out << YAML::Flow << YAML::BeginSeq << yamlNumber(v.x()) << yamlNumber(v.y()) << yamlNumber(v.z()) << YAML::EndSeq;
-}
-
 void emitSessions(YAML::Emitter& out, const ObjectModel& model)
 {
   out << YAML::Key << "sessions" << YAML::Value << YAML::BeginSeq;
@@ -89,6 +85,8 @@ ObjectEntry entryFrom(const YAML::Node& node)
     entry.sessions_left_out.push_back({ session["id"].as<std::string>(), session["reason"].as<std::string>() });
   for (const auto& figure : node["quality"])
     entry.quality[figure.first.as<std::string>()] = figure.second.as<double>();
+  entry.schema_version = node["schema_version"].as<int>();
+  entry.properties = propertiesFrom(node);
   return entry;
 }
 }  // namespace
@@ -103,7 +101,7 @@ std::string objectYaml(const ObjectModel& model, const std::map<std::string, std
   out << YAML::Key << "unit" << YAML::Value << UNIT;
   out << YAML::Key << "handedness" << YAML::Value << HANDEDNESS;
   out << YAML::Key << "size_m" << YAML::Value;
-  emitVector(out, model.box_model.size_m);
+  emitNumbers(out, model.box_model.size_m);
   out << YAML::Key << "diameter_m" << YAML::Value << yamlNumber(model.diameter_m);
   out << YAML::Key << "model_from_box" << YAML::Value;
   emitTransform(out, model.box_model.T_frame_box);
@@ -115,6 +113,8 @@ std::string objectYaml(const ObjectModel& model, const std::map<std::string, std
   emitLeftOut(out, model);
   emitMap(out, "quality", model.quality, yamlNumber);
   emitMap(out, "provenance", model.provenance, [](const std::string& text) { return text; });
+  if (model.properties)
+    emitProperties(out, *model.properties);
   out << YAML::Key << "cloud_point_count" << YAML::Value << model.cloud.size();
   out << YAML::Key << "mesh_vertex_count" << YAML::Value << model.mesh.vertices.size();
   out << YAML::Key << "mesh_triangle_count" << YAML::Value << model.mesh.triangles.size();
@@ -133,6 +133,8 @@ ObjectDescription readObject(const std::string& folder)
   try
   {
     object.entry = entryFrom(node);
+    for (int i = 0; i < collisionPartCount(node); ++i)
+      object.entry.collision_paths.push_back(folder + "/" + collisionFile(i));
     object.unit = node["unit"].as<std::string>();
     object.handedness = node["handedness"].as<std::string>();
     for (const auto& file : node["files"])

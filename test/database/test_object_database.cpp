@@ -253,7 +253,7 @@ TEST_F(ObjectDatabaseTest, RefusesANewerSchemaAndHostileManifests)
   base::writeTextFile(manifest, "schema_version: 42\n");
   base::Status status = statusOf([&] { ObjectDatabase(folder_.path("db"), true); });
   EXPECT_EQ(status.code, StatusCode::STORAGE);
-  EXPECT_TRUE(mentions(status, "42") && mentions(status, "up to 1") && mentions(status, manifest)) << status.message;
+  EXPECT_TRUE(mentions(status, "42") && mentions(status, "up to 2") && mentions(status, manifest)) << status.message;
   EXPECT_EQ(statusOf([&] { write(makeModel("cereal", 0, 0)); }).code, StatusCode::STORAGE);
   base::writeTextFile(manifest,
                       "schema_version: 1\nunit: metre\nhandedness: right\nobjects:\n"

@@ -23,6 +23,10 @@ struct ObjectEntry
   std::vector<Eigen::Isometry3d> T_support_model;  ///< resting poses
   std::map<std::string, double> quality;
   std::string mesh_path;  ///< absolute, mesh/mesh.ply
+  int schema_version = 0;
+  /// None in objects of schema version 1; the collision parts are not loaded, but in these files (absolute paths).
+  std::optional<object_properties::ObjectProperties> properties;
+  std::vector<std::string> collision_paths;
 };
 
 /// Makes report.html in an object's folder, from what lies there. May throw.
@@ -52,6 +56,11 @@ public:
   /// Runs `make_report` on an object that is there, for a report that is missing or was made by another version.
   void remakeReport(const std::string& object_id, base::JobControl& control, const ReportMaker& make_report);
   void remove(const std::string& object_id);
+  /// The same object by another id, with its files as they are; NOT_FOUND, or INVALID_ARGUMENT if the new id is taken.
+  void rename(const std::string& object_id, const std::string& new_id);
+  /// Brings an object of an older schema to the present one: properties of its mesh are added, all else stays, in one
+  /// atomic step. False if it is up to date.
+  bool migrate(const std::string& object_id, base::JobControl& control);
   /// Every broken file, hash, unit or frame, one message each; empty when sound.
   std::vector<std::string> check() const;
   const std::string& root() const { return root_; }

@@ -9,6 +9,7 @@
 #include "object_modelling/geometry/oriented_box.h"
 #include "object_modelling/mesh/textured_mesh.h"
 #include "object_modelling/mesh/triangle_mesh.h"
+#include "object_modelling/object_properties/object_properties.h"
 #include "object_modelling/rgbd/view.h"
 
 namespace object_modelling::database
@@ -42,11 +43,13 @@ struct ObjectModel
   std::map<std::string, std::string> provenance;   ///< recording, software version, options
   fusion::FusedCloud cloud;                        ///< in the object frame
   mesh::TriangleMesh mesh;
-  mesh::TexturedMesh textured;    ///< the same mesh with its texture; may be empty
-  cv::Mat preview_bgr;            ///< CV_8UC3, written as preview.png; may be empty
-  cv::Mat turntable_bgr;          ///< CV_8UC3, written as turntable.png; may be empty
-  std::string quality_yaml;       ///< written as quality.yaml; may be empty
-  std::vector<rgbd::View> views;  ///< their world is the object frame
+  std::vector<float> mesh_sigmas_m;  ///< per vertex of the mesh: of the fused points near it; may be empty
+  std::optional<object_properties::ObjectProperties> properties;  ///< of the mesh
+  mesh::TexturedMesh textured;                                    ///< the same mesh with its texture; may be empty
+  cv::Mat preview_bgr;                                            ///< CV_8UC3, written as preview.png; may be empty
+  cv::Mat turntable_bgr;                                          ///< CV_8UC3, written as turntable.png; may be empty
+  std::string quality_yaml;                                       ///< written as quality.yaml; may be empty
+  std::vector<rgbd::View> views;                                  ///< their world is the object frame
 };
 
 }  // namespace object_modelling::database
