@@ -86,15 +86,13 @@ nlohmann::json stageSeconds(const std::vector<pipeline::StageTime>& stages)
 
 nlohmann::json toJson(const pipeline::BuildReport& report)
 {
-  return { { "status", toJson(report.status) },
-           { "object_folder", report.object_folder },
-           { "preview_path", report.preview_path },
-           { "size_m", { report.size_m.x(), report.size_m.y(), report.size_m.z() } },
-           { "diameter_m", report.diameter_m },
-           { "point_count", report.point_count },
-           { "vertex_count", report.vertex_count },
-           { "triangle_count", report.triangle_count },
-           { "stage_s", stageSeconds(report.stages) } };
+  return {
+    { "status", toJson(report.status) },     { "object_folder", report.object_folder },
+    { "preview_path", report.preview_path }, { "size_m", { report.size_m.x(), report.size_m.y(), report.size_m.z() } },
+    { "diameter_m", report.diameter_m },     { "point_count", report.point_count },
+    { "vertex_count", report.vertex_count }, { "triangle_count", report.triangle_count },
+    { "properties", report.properties },     { "stage_s", stageSeconds(report.stages) }
+  };
 }
 
 std::string toText(const pipeline::RecordReport& report)
@@ -127,6 +125,7 @@ std::string toText(const pipeline::BuildReport& report)
   out << "built     " << 1000 * report.size_m.x() << " x " << 1000 * report.size_m.y() << " x "
       << 1000 * report.size_m.z() << " mm, diameter " << 1000 * report.diameter_m << " mm; " << report.point_count
       << " points, " << report.triangle_count << " triangles\n"
+      << "          " << report.properties << "\n"
       << "          " << report.object_folder << "\n"
       << "          " << report.preview_path << "\n";
   if (!report.status.message.empty())

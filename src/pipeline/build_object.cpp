@@ -8,6 +8,7 @@
 #include "model_description.h"
 #include "model_frame.h"
 #include "object_modelling/base/options.h"
+#include "object_modelling/database/mesh_evidence.h"
 #include "object_modelling/mesh/mesh_renderer.h"
 #include "object_modelling/mesh/textured_renderer.h"
 #include "object_modelling/report/quality_figures.h"
@@ -18,6 +19,7 @@ namespace object_modelling::pipeline
 namespace
 {
 constexpr int TURNTABLE_STEPS = 8;
+constexpr double SEEN_RESOLUTIONS = 2;  // of fusion, between a seen place of the mesh and the nearest fused point
 
 class StageTimer
 {
@@ -125,6 +127,8 @@ public:
       }
     }
     addTexture();
+    describe(views_, placements_, *T_model_reference_, box_reference_, &model_);
+    addProperties();
     completeModel();
     write();
     return report_;
@@ -136,6 +140,7 @@ private:
   base::Status fuse();
   base::Status reconstruct();  ///< the surface, and with it the object's frame
   void addTexture();
+  void addProperties();
   void completeModel();
   void addWarnings();  ///< to the status' message
   void write();
@@ -233,9 +238,18 @@ void Build::addTexture()
   timer_.finish("texture");
 }
 
+void Build::addProperties()
+{
+  database::markSeen(fused_.cloud, SEEN_RESOLUTIONS * options_.fusion.resolution_m, &model_.mesh);
+  model_.mesh_sigmas_m = database::sigmasOf(fused_.cloud, model_.mesh);
+  model_.properties =
+      object_properties::propertiesOf(model_.mesh, model_.T_support_model, options_.properties, control_);
+  report_.properties = object_properties::summaryText(*model_.properties, model_.properties->collision_parts.size());
+  timer_.finish("properties");
+}
+
 void Build::completeModel()
 {
-  describe(views_, placements_, *T_model_reference_, box_reference_, &model_);
   model_.diameter_m = diameter_m(model_.mesh.vertices);
   model_.quality = report::qualityFigures(model_.views.size(), fused_, model_.mesh, texture_);
   model_.provenance = { { "software", "object_modelling " OBJECT_MODELLING_VERSION },
@@ -291,6 +305,7 @@ std::vector<std::string> BuildOptions::violations() const
   check.include(fusion.violations());
   check.include(surface.violations());
   check.include(texture.violations());
+  check.include(properties.violations());
   return check.violations();
 }
 

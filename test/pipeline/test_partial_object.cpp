@@ -75,7 +75,8 @@ TEST_F(PartialObject, IsBuiltFromTheBestSessionAndWholeOnceAPersonAcceptsThePair
   EXPECT_EQ(partial.status.message.find("PARTIAL: object 'carton' is built from 1 of its 2 sessions, without 'a_ball'"),
             0u)
       << partial.status.message;
-  EXPECT_EQ(stagesOf(partial), (std::vector<std::string>{ "load", "fuse", "surface", "texture", "describe", "write" }))
+  EXPECT_EQ(stagesOf(partial),
+            (std::vector<std::string>{ "load", "fuse", "surface", "texture", "properties", "describe", "write" }))
       << "of one session there is no joint refinement";
   database::ObjectEntry entry = database_.entry("carton");
   EXPECT_TRUE(entry.partial);

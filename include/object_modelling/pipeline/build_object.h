@@ -20,6 +20,7 @@ struct BuildOptions
   fusion::CloudFusionOptions fusion;
   surface::SurfaceOptions surface;
   texture::TextureOptions texture;
+  object_properties::PropertyOptions properties;
   bool replace = false;     ///< allow another object frame for an object that exists with none of these sessions
   bool make_report = true;  ///< report.html, which takes a few seconds
   /// Sessions of the object that `placements` lacks, from leftOutOf(): with any, the object is marked as partial.
@@ -37,7 +38,9 @@ struct BuildReport
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  ///< along the object frame's x, y, z
   double diameter_m = 0;
   std::size_t point_count = 0, vertex_count = 0, triangle_count = 0;
-  /// In their order: load, joint refinement (of several sessions), fuse, surface, texture, describe, write, report.
+  std::string properties;  ///< in one line: volume, symmetries, resting poses, what was not seen
+  /// In their order: load, joint refinement (of several sessions), fuse, surface, texture, properties, describe, write,
+  /// report.
   std::vector<StageTime> stages;
 };
 

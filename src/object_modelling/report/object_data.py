@@ -63,6 +63,7 @@ class ObjectData:
             # Objects of before lack it.
             self.left_out = [(str(session["id"]), str(session["reason"]))
                              for session in self.object.get("sessions_left_out", [])]
+            self.properties = _properties(self.object)
         except (KeyError, TypeError, AttributeError) as error:
             raise ReportError("%s: quality.yaml or object.yaml lacks %s; build the object anew" % (folder, error)) \
                 from error
@@ -79,6 +80,28 @@ def _load(path):
         return load_yaml(path)
     except Failure as failure:
         raise ReportError(failure.message) from failure
+
+
+def _properties(description):
+    """Rows (title, text) of what is known of the object; none for objects of before."""
+    mass = description.get("mass_properties")
+    if mass is None:
+        return []
+    of = {"mesh": "", "closed_mesh": ", holes closed", "hull": ", of the hull"}[mass["of"]]
+    turns = {"shape": [], "texture": []}
+    for symmetry in description["symmetries"]:
+        turns[symmetry["of"]].append("round" if symmetry["kind"] == "continuous" else "%d-fold" % symmetry["order"])
+    poses = ["%.0f %%%s" % (100 * pose["probability"], " (recorded)" if pose["seen"] else "")
+             for pose in description["resting_poses"]]
+    rows = [("Volume", "%.0f ml%s" % (1e6 * mass["volume_m3"], of)),
+            ("Symmetries", "%s; with texture: %s" % tuple(", ".join(turns[of]) or "none"
+                                                          for of in ("shape", "texture"))),
+            ("Resting poses", ", ".join(poses) or "none")]
+    if "unseen" in description:
+        unseen = description["unseen"]
+        rows.append(("Never seen", "%.0f %% of the surface%s" % (
+            100 * unseen["ratio"], ", and of it the bottom" if unseen["bottom"] else "")))
+    return rows
 
 
 def _keyframes(quality):
