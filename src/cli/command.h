@@ -37,6 +37,7 @@ void addReportCommand(CLI::App& app, Command* chosen);
 void addExportCommand(CLI::App& app, Command* chosen);
 void addCompareCommand(CLI::App& app, Command* chosen);
 void addRecogniseCommand(CLI::App& app, Command* chosen);
+void addImportMeshCommand(CLI::App& app, Command* chosen);
 
 /// Options that track and model share.
 struct RecordArguments

@@ -110,6 +110,7 @@ int main(int argc, char** argv)
   cli::addExportCommand(app, &command);
   cli::addCompareCommand(app, &command);
   cli::addRecogniseCommand(app, &command);
+  cli::addImportMeshCommand(app, &command);
   try
   {
     app.parse(argc, argv);
