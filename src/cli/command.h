@@ -38,6 +38,7 @@ void addExportCommand(CLI::App& app, Command* chosen);
 void addCompareCommand(CLI::App& app, Command* chosen);
 void addRecogniseCommand(CLI::App& app, Command* chosen);
 void addImportMeshCommand(CLI::App& app, Command* chosen);
+void addDatabaseCommands(CLI::App& app, Command* chosen);  ///< check, migrate, rename, delete
 
 /// Options that track and model share.
 struct RecordArguments

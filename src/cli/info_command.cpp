@@ -39,14 +39,12 @@ CommandOutput describeDatabase(const std::string& path)
     text << entry.id << ": " << 1000 * entry.size_m.x() << " x " << 1000 * entry.size_m.y() << " x "
          << 1000 * entry.size_m.z() << " mm, " << entry.sessions.size() << " session(s)"
          << (entry.partial ? ", PARTIAL: " + std::to_string(left_out.size()) + " left out" : "") << "\n";
+    if (entry.properties)
+      text << "  " << object_properties::summaryText(*entry.properties, entry.collision_paths.size()) << "\n";
     for (const database::LeftOutSession& session : entry.sessions_left_out)
       text << "  without " << session.id << ": " << session.reason << "\n";
   }
-  const std::vector<std::string> problems = database.check();
-  output.json["problems"] = problems;
-  for (const std::string& problem : problems)
-    text << "PROBLEM " << problem << "\n";
-  text << output.json["objects"].size() << " object(s), " << problems.size() << " problem(s)\n";
+  text << output.json["objects"].size() << " object(s); whether they are sound tells 'object_modelling check'\n";
   output.text = text.str();
   return output;
 }
@@ -86,8 +84,7 @@ CommandOutput run(const std::string& path)
 void addInfoCommand(CLI::App& app, Command* chosen)
 {
   auto path = std::make_shared<std::string>();
-  CLI::App* command =
-      app.add_subcommand("info", "What an object database or a keyframe store holds, and whether it is sound");
+  CLI::App* command = app.add_subcommand("info", "What an object database or a keyframe store holds");
   command
       ->add_option("path", *path, "Folder of an object database, or a keyframe store (SQLite file or postgresql://...)")
       ->required();

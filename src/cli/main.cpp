@@ -111,6 +111,7 @@ int main(int argc, char** argv)
   cli::addCompareCommand(app, &command);
   cli::addRecogniseCommand(app, &command);
   cli::addImportMeshCommand(app, &command);
+  cli::addDatabaseCommands(app, &command);
   try
   {
     app.parse(argc, argv);

@@ -26,9 +26,8 @@ class PartialTest(unittest.TestCase):
         cls.finished = run("model", "odd", CEREAL_BOX, "--reference", "object", *cls.places, "--json", "--quiet")
 
     def info(self):
-        answer = run_json("info", self.database)
-        self.assertEqual(answer["problems"], [])
-        return answer["objects"][0]
+        self.assertEqual(run_json("check", self.database)["problems"], [])
+        return run_json("info", self.database)["objects"][0]
 
     def test_1_a_refused_pair_gives_a_partial_object(self):
         self.assertEqual(self.finished.returncode, 0, self.finished.stderr)

@@ -27,9 +27,10 @@ class UsageTest(unittest.TestCase):
     def test_help_names_every_command(self):
         text = run("--help").stdout
         for word in ("track", "model", "align", "calibrate_noise", "calibrate_camera", "info", "compare", "report", "export",
-                     "Exit codes"):
+                     "recognise", "import_mesh", "check", "migrate", "rename", "delete", "Exit codes"):
             self.assertIn(word, text)
-        for command in ("track", "model", "align", "calibrate_noise", "calibrate_camera", "info", "compare", "report", "export"):
+        for command in ("track", "model", "align", "calibrate_noise", "calibrate_camera", "info", "compare", "report", "export",
+                        "recognise", "import_mesh", "check", "migrate", "rename", "delete"):
             finished = run(command, "--help")
             self.assertEqual(finished.returncode, 0)
             self.assertGreater(len(finished.stdout.splitlines()), 5)
