@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "object_modelling/base/options.h"
@@ -15,9 +16,10 @@ namespace
 constexpr int CUTS_PER_AXIS = 7;
 constexpr double IMBALANCE_COST = 0.05;   // of volume, so that equal gains are taken in the middle
 constexpr double MAX_JOINT_GROWTH = 0.1;  // of the volume of two parts that are joined
-constexpr std::size_t MAX_SEARCH_TRIANGLES = 5000;
-constexpr float SEARCH_CELL_RATIO = 0.012f;  // of the diagonal
+constexpr std::size_t MAX_SEARCH_TRIANGLES = 3000;
+constexpr float SEARCH_CELL_RATIO = 0.016f;  // of the diagonal
 constexpr std::size_t MAX_DIRECTIONS = 1500;
+constexpr std::size_t ROUGH_DIRECTIONS = 100;
 constexpr float HALF_SHEET_M = 0.0005f;  // what a flat part is taken for
 
 /// In the frame of the object's box.
@@ -61,6 +63,50 @@ std::vector<float> placesAlong(const Part& part, int axis, float clearance_m)
   return places;
 }
 
+/// Directions spread evenly over the sphere.
+std::vector<Eigen::Vector3f> evenDirections(std::size_t count)
+{
+  std::vector<Eigen::Vector3f> directions;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    // Fibonacci spiral
+    const double z = 1 - (2 * static_cast<double>(i) + 1.0) / static_cast<double>(count), r = std::sqrt(1 - z * z),
+                 turn = static_cast<double>(i) * M_PI * (3 - std::sqrt(5.0));
+    directions.push_back(Eigen::Vector3d(r * std::cos(turn), r * std::sin(turn), z).cast<float>());
+  }
+  return directions;
+}
+
+/// Those furthest out along one of the directions.
+std::vector<Eigen::Vector3f> extremes(const std::vector<Eigen::Vector3f>& points,
+                                      const std::vector<Eigen::Vector3f>& directions)
+{
+  std::set<std::size_t> chosen;
+  for (const Eigen::Vector3f& along : directions)
+  {
+    std::size_t furthest = 0;
+    float largest = -std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (points[i].dot(along) > largest)
+      {
+        largest = points[i].dot(along);
+        furthest = i;
+      }
+    chosen.insert(furthest);
+  }
+  std::vector<Eigen::Vector3f> result;
+  for (const std::size_t index : chosen)
+    result.push_back(points[index]);
+  return result;
+}
+
+/// Of the hull of some extreme points: it is compared only.
+double roughVolume_m3(const Soup& soup)
+{
+  static const std::vector<Eigen::Vector3f> DIRECTIONS = evenDirections(ROUGH_DIRECTIONS);
+  return geometry::hullSurface(extremes(cornersOf(soup), DIRECTIONS)).volume_m3();
+}
+
 Cut bestCut(const Part& part, float clearance_m)
 {
   Cut best;
@@ -70,8 +116,7 @@ Cut bestCut(const Part& part, float clearance_m)
       const Soup low = clipped(part.soup, axis, at_m, -1), high = clipped(part.soup, axis, at_m, 1);
       if (low.empty() || high.empty())
         continue;
-      const double low_m3 = geometry::hullSurface(cornersOf(low)).volume_m3(),
-                   high_m3 = geometry::hullSurface(cornersOf(high)).volume_m3();
+      const double low_m3 = roughVolume_m3(low), high_m3 = roughVolume_m3(high);
       const double cost = low_m3 + high_m3 + IMBALANCE_COST * std::abs(low_m3 - high_m3);
       if (cost < best.cost)
         best = { axis, at_m, cost };
@@ -146,30 +191,16 @@ void join(double tolerance_m, std::vector<Part>* parts)
 }
 
 /// Points furthest out along even directions, as many as may be.
-std::vector<Eigen::Vector3f> extremes(const std::vector<Eigen::Vector3f>& points, std::size_t max_count)
+std::vector<Eigen::Vector3f> atMost(std::size_t max_count, const std::vector<Eigen::Vector3f>& points)
 {
-  std::set<std::size_t> chosen;
+  std::vector<Eigen::Vector3f> chosen;
   for (std::size_t count = MAX_DIRECTIONS; count > 3; count = count * 4 / 5)
   {
-    chosen.clear();
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      // Fibonacci spiral over the sphere
-      const double z = 1 - (2 * static_cast<double>(i) + 1.0) / static_cast<double>(count), r = std::sqrt(1 - z * z),
-                   turn = static_cast<double>(i) * M_PI * (3 - std::sqrt(5.0));
-      const Eigen::Vector3f along = Eigen::Vector3d(r * std::cos(turn), r * std::sin(turn), z).cast<float>();
-      chosen.insert(static_cast<std::size_t>(std::max_element(points.begin(), points.end(),
-                                                              [&](const Eigen::Vector3f& a, const Eigen::Vector3f& b)
-                                                              { return a.dot(along) < b.dot(along); }) -
-                                             points.begin()));
-    }
+    chosen = extremes(points, evenDirections(count));
     if (chosen.size() <= max_count)
       break;
   }
-  std::vector<Eigen::Vector3f> result;
-  for (const std::size_t index : chosen)
-    result.push_back(points[index]);
-  return result;
+  return chosen;
 }
 
 /// Hull of the fine surface within a part.
@@ -192,7 +223,7 @@ geometry::HullSurface finalHull(const Soup& fine, const Part& part, std::size_t 
     hull = geometry::hullSurface(thick);
   }
   // Points that stand out by rounding alone, along edges and on faces, are not among the extremes.
-  return hull.vertices.empty() ? hull : geometry::hullSurface(extremes(hull.vertices, max_vertices));
+  return hull.vertices.empty() ? hull : geometry::hullSurface(atMost(max_vertices, hull.vertices));
 }
 }  // namespace
 
