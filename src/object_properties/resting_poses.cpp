@@ -71,10 +71,11 @@ std::vector<Family> familiesOf(const std::vector<HullRegion>& regions, double ma
   for (std::size_t i = 0; i < regions.size(); ++i)
     for (const RegionBorder& border : regions[i].borders)
     {
-      const double lower_m = std::min(regions[i].height_m, regions[border.other].height_m);
-      const bool free = border.edge_distance_m - lower_m <= max_barrier_ratio * lower_m;
-      if (free && sink[i] == i && sink[border.other] == border.other)
-        sets.unite(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(border.other));
+      // Over this edge the way leads down to both, and back.
+      const std::size_t one = sink[i], other = sink[border.other];
+      const double lower_m = std::min(regions[one].height_m, regions[other].height_m);
+      if (border.edge_distance_m - lower_m <= max_barrier_ratio * lower_m)
+        sets.unite(static_cast<std::uint32_t>(one), static_cast<std::uint32_t>(other));
     }
   std::vector<Family> of_root(regions.size());
   for (std::size_t i = 0; i < regions.size(); ++i)
@@ -122,7 +123,7 @@ Eigen::Isometry3d restingOn(const HullRegion& region, const Eigen::Vector3d& cen
   return T_support_model;
 }
 
-/// Most probable first, adding up to 1.
+/// Probabilities that add up to 1, the most probable pose first.
 void normalize(std::vector<RestingPose>* poses)
 {
   double sum = 0;
@@ -130,8 +131,15 @@ void normalize(std::vector<RestingPose>* poses)
     sum += pose.probability;
   for (RestingPose& pose : *poses)
     pose.probability = sum > 0 ? pose.probability / sum : 1.0 / static_cast<double>(poses->size());
-  std::stable_sort(poses->begin(), poses->end(),
-                   [](const RestingPose& a, const RestingPose& b) { return a.probability > b.probability; });
+  // Of those that are equally probable but for rounding the upright one first.
+  const auto before = [](const RestingPose& a, const RestingPose& b)
+  {
+    const long share_a = std::lround(1000 * a.probability), share_b = std::lround(1000 * b.probability);
+    const long up_a = std::lround(1000 * a.T_support_model.linear()(2, 2)),
+               up_b = std::lround(1000 * b.T_support_model.linear()(2, 2));
+    return share_a != share_b ? share_a > share_b : up_a > up_b;
+  };
+  std::stable_sort(poses->begin(), poses->end(), before);
 }
 }  // namespace
 

@@ -17,7 +17,7 @@ struct RestingPose
 struct RestingPoseOptions
 {
   double max_coplanar_deg = 2;      ///< hull faces whose normals differ by less are one
-  double max_barrier_ratio = 0.01;  ///< of the centre of mass's height: what it is tipped over by itself
+  double max_barrier_ratio = 0.03;  ///< of the centre of mass's height: what it is tipped over by itself
   double max_seen_deg = 10;         ///< between the upward directions of a recorded pose and a computed one
   double min_probability = 0.01;    ///< rarer poses are left out unless they were recorded
   std::vector<std::string> violations() const;
