@@ -95,7 +95,7 @@ TEST_F(PartialObject, IsBuiltFromTheBestSessionAndWholeOnceAPersonAcceptsThePair
   ASSERT_TRUE(whole.status.ok()) << whole.status.message;
   EXPECT_FALSE(has(whole.status.message, "PARTIAL")) << whole.status.message;
   EXPECT_EQ(stagesOf(whole), (std::vector<std::string>{ "load", "joint refinement", "fuse", "surface", "texture",
-                                                        "describe", "write" }));
+                                                        "properties", "describe", "write" }));
   entry = database_.entry("carton");
   EXPECT_FALSE(entry.partial);
   EXPECT_EQ(entry.sessions.size(), 2u);
