@@ -21,10 +21,11 @@ ObjectModel modelWithProperties()
 {
   ObjectModel model = makeModel("cereal", 0, 1);
   model.T_support_model = { Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.1)) };
-  model.mesh.seen = { 1, 0, 1, 1, 1, 1, 1, 1 };  // of both triangles of the bottom
   model.mesh_sigmas_m.assign(8, 0.0004f);
   base::JobControl control;
   model.properties = object_properties::propertiesOf(model.mesh, model.T_support_model, {}, control);
+  model.mesh.seen = { 1, 0, 1, 1, 1, 1, 1, 1 };  // both triangles of the bottom have the one that was not
+  model.properties->unseen = object_properties::unseenOf(model.mesh, model.T_support_model[0]);
   return model;
 }
 
