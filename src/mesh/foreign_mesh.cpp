@@ -10,6 +10,7 @@
 #include <assimp/Importer.hpp>
 
 #include "object_modelling/base/status.h"
+#include "object_modelling/mesh/mesh_files.h"
 #include "object_modelling/mesh/textured_mesh_files.h"
 
 namespace object_modelling::mesh
@@ -184,7 +185,8 @@ TexturedMesh readForeignMesh(const std::string& path)
       }
     }
     TexturedMesh plain;
-    plain.mesh = readByAssimp(path);
+    // Assimp 5.2 waits for ever for the rest of a PLY file that was cut off.
+    plain.mesh = extension == ".ply" ? readMesh(path) : readByAssimp(path);
     return cleaned(plain);
   }
   catch (const Error& error)

@@ -35,6 +35,29 @@ float floatAt(const pcl::PCLPointCloud2& cloud, std::size_t point, std::size_t o
   return value;
 }
 
+/// Coordinates as floats or doubles, whichever the file has.
+std::vector<Eigen::Vector3f> placesOf(const std::string& path, const pcl::PCLPointCloud2& cloud)
+{
+  std::vector<Eigen::Vector3f> places(static_cast<std::size_t>(cloud.width) * cloud.height);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::string name(1, "xyz"[axis]);
+    const auto field = std::find_if(cloud.fields.begin(), cloud.fields.end(),
+                                    [&](const pcl::PCLPointField& candidate) { return candidate.name == name; });
+    const bool doubles = field != cloud.fields.end() && field->datatype == pcl::PCLPointField::FLOAT64;
+    if (field == cloud.fields.end() || (!doubles && field->datatype != pcl::PCLPointField::FLOAT32))
+      throw base::Error(base::StatusCode::BAD_INPUT, "'" + path + "': its vertices have no float or double x, y, z");
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      double value = 0;
+      if (doubles)
+        std::memcpy(&value, &cloud.data[i * cloud.point_step + field->offset], sizeof(value));
+      places[i][axis] = doubles ? static_cast<float>(value) : floatAt(cloud, i, field->offset);
+    }
+  }
+  return places;
+}
+
 /// Of the field "seen", an unsigned byte: 0 where it is not.
 std::vector<std::uint8_t> marksOf(const pcl::PCLPointCloud2& cloud)
 {
@@ -106,19 +129,13 @@ TriangleMesh readPly(const std::string& path)
                        hasField(polygons.cloud, "normal_z");
   const bool marked = hasField(polygons.cloud, "rgba");
   const bool colors = marked || hasField(polygons.cloud, "rgb");
-  if (!hasField(polygons.cloud, "x") || !hasField(polygons.cloud, "y") || !hasField(polygons.cloud, "z"))
-    throw base::Error(base::StatusCode::BAD_INPUT, "'" + path + "': its vertices have no float x, y, z");
-
-  pcl::PointCloud<pcl::PointXYZ> points;
-  pcl::fromPCLPointCloud2(polygons.cloud, points);
   TriangleMesh mesh;
-  for (const auto& point : points)
-    mesh.vertices.push_back(point.getVector3fMap());
+  mesh.vertices = placesOf(path, polygons.cloud);
   if (normals)
   {
     const std::size_t x = offsetOf(polygons.cloud, "normal_x"), y = offsetOf(polygons.cloud, "normal_y"),
                       z = offsetOf(polygons.cloud, "normal_z");
-    for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
       mesh.normals.push_back(
           { floatAt(polygons.cloud, i, x), floatAt(polygons.cloud, i, y), floatAt(polygons.cloud, i, z) });
   }
