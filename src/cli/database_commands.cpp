@@ -56,13 +56,13 @@ CommandOutput remove(const std::string& path, const std::string& object_id)
   return { object_id + " is deleted\n", { { "deleted", object_id } } };
 }
 
-struct Arguments
+struct DatabaseArguments
 {
   std::string database, object_id, new_id;
 };
 
 CLI::App* addCommand(CLI::App& app, const std::string& name, const std::string& help,
-                     const std::shared_ptr<Arguments>& arguments)
+                     const std::shared_ptr<DatabaseArguments>& arguments)
 {
   CLI::App* command = app.add_subcommand(name, help);
   command->add_option("database", arguments->database, "Folder of the object database")->required();
@@ -72,7 +72,7 @@ CLI::App* addCommand(CLI::App& app, const std::string& name, const std::string& 
 
 void addDatabaseCommands(CLI::App& app, Command* chosen)
 {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<DatabaseArguments>();
   CLI::App* command = addCommand(app, "check", "Whether an object database is sound; names every fault", arguments);
   command->footer("Exit code 0 if it is. Example: object_modelling check ~/objects");
   command->callback([=] { *chosen = [=](base::JobControl&) { return check(arguments->database); }; });

@@ -11,7 +11,7 @@ constexpr char PROGRAM[] = "export_objects";
 constexpr std::chrono::hours TIMEOUT{ 6 };
 constexpr int FIRST_STATUS_EXIT_CODE = 10;  ///< with OK; the others follow in the order of StatusCode
 
-struct Arguments
+struct ExportArguments
 {
   std::string database, format, folder, unit;
   std::vector<std::string> object_ids;
@@ -25,7 +25,7 @@ base::StatusCode statusFrom(int exit_code)
   return known ? static_cast<base::StatusCode>(code) : base::StatusCode::INTERNAL;
 }
 
-CommandOutput run(const Arguments& arguments, base::JobControl& control)
+CommandOutput run(const ExportArguments& arguments, base::JobControl& control)
 {
   std::vector<std::string> words = { arguments.database, "--format=" + arguments.format, "--json" };
   if (!arguments.folder.empty())
@@ -49,7 +49,7 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
 
 void addExportCommand(CLI::App& app, Command* chosen)
 {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ExportArguments>();
   CLI::App* command = app.add_subcommand("export", "Write objects of a database as files for other programs");
   command->add_option("database", arguments->database, "Folder of the object database")->required();
   command->add_option("--format", arguments->format, "Format; 'list' names all of them")->required();

@@ -9,14 +9,14 @@ namespace object_modelling::cli
 {
 namespace
 {
-struct Arguments
+struct ImportMeshArguments
 {
   std::string mesh, object_id, name, unit, database;
   double mass_kg = 0;
   bool replace = false;
 };
 
-CommandOutput run(const Arguments& arguments, base::JobControl& control)
+CommandOutput run(const ImportMeshArguments& arguments, base::JobControl& control)
 {
   pipeline::ImportOptions options;
   options.unit_m = arguments.unit.empty() ? 0 : arguments.unit == "mm" ? 0.001 : 1;
@@ -41,7 +41,7 @@ CommandOutput run(const Arguments& arguments, base::JobControl& control)
 
 void addImportMeshCommand(CLI::App& app, Command* chosen)
 {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ImportMeshArguments>();
   CLI::App* command =
       app.add_subcommand("import_mesh", "Make an object of a mesh file (CAD, scan), with rendered views");
   command->add_option("mesh", arguments->mesh, "OBJ, PLY, STL or GLB file")->required();

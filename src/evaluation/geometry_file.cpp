@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <filesystem>
 
@@ -8,6 +7,7 @@
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
 
+#include "object_modelling/base/file_extension.h"
 #include "object_modelling/base/status.h"
 #include "object_modelling/evaluation/comparison_files.h"
 #include "object_modelling/mesh/mesh_files.h"
@@ -94,9 +94,7 @@ mesh::TriangleMesh readPcdGeometry(const std::string& path)
 
 mesh::TriangleMesh readByExtension(const std::string& path)
 {
-  std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = base::lowerExtension(path);
   if (extension == ".ply")
     return readPlyGeometry(path);
   if (extension == ".pcd")

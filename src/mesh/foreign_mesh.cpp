@@ -9,6 +9,7 @@
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
+#include "object_modelling/base/file_extension.h"
 #include "object_modelling/base/status.h"
 #include "object_modelling/mesh/mesh_files.h"
 #include "object_modelling/mesh/textured_mesh_files.h"
@@ -20,14 +21,6 @@ namespace
 namespace fs = std::filesystem;
 using base::Error;
 using base::StatusCode;
-
-std::string extensionOf(const std::string& path)
-{
-  std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 /// Parts after one another, no vertices joined.
 TriangleMesh readByAssimp(const std::string& path)
@@ -169,7 +162,7 @@ TexturedMesh readForeignMesh(const std::string& path)
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored))
     throw Error(StatusCode::NOT_FOUND, "mesh file '" + path + "' does not exist");
-  const std::string extension = extensionOf(path);
+  const std::string extension = base::lowerExtension(path);
   try
   {
     if (extension == ".obj" || extension == ".glb")

@@ -1,7 +1,6 @@
 #include "object_modelling/mesh/mesh_files.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <exception>
@@ -9,6 +8,7 @@
 #include <fstream>
 
 #include "mesh_file_formats.h"
+#include "object_modelling/base/file_extension.h"
 #include "object_modelling/base/status.h"
 
 namespace object_modelling::mesh
@@ -25,9 +25,7 @@ enum class Format
 
 Format formatOf(const std::string& path)
 {
-  std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = base::lowerExtension(path);
   if (extension == ".ply")
     return Format::PLY;
   if (extension == ".obj")

@@ -1,7 +1,6 @@
 #include "object_modelling/mesh/textured_mesh_files.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +12,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "object_modelling/base/atomic_file.h"
+#include "object_modelling/base/file_extension.h"
 #include "object_modelling/base/status.h"
 #include "textured_scene.h"
 
@@ -26,9 +26,7 @@ using base::StatusCode;
 
 std::string extensionOf(const std::string& path)
 {
-  std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = base::lowerExtension(path);
   if (extension != ".obj" && extension != ".glb")
     throw Error(StatusCode::INVALID_ARGUMENT,
                 "textured mesh '" + path + "': extension '" + extension + "' is not known; use .obj or .glb");

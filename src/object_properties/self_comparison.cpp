@@ -15,7 +15,7 @@ namespace object_modelling::object_properties
 {
 namespace
 {
-constexpr std::size_t SAMPLE_COUNT = 8000;
+constexpr std::size_t COMPARED_SAMPLES = 8000;
 constexpr std::size_t ROUGH_STEP = 20;  // every so many samples are probed in a search
 constexpr std::size_t EXACT_STEP = 8;
 constexpr int ICP_STEPS = 8;
@@ -40,7 +40,7 @@ Eigen::Isometry3d Axis::turn(double angle_rad) const
 
 SelfComparison::SelfComparison(const mesh::TriangleMesh& mesh) : reference_(mesh)
 {
-  for (const mesh::SurfaceSample& sample : mesh::sampleEvenly(mesh, SAMPLE_COUNT))
+  for (const mesh::SurfaceSample& sample : mesh::sampleEvenly(mesh, COMPARED_SAMPLES))
   {
     points_.emplace_back(mesh::pointAt(mesh, sample).cast<float>());
     normals_.push_back(mesh::triangleNormal(mesh, sample.triangle));

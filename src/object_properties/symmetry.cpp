@@ -10,7 +10,6 @@ namespace object_modelling::object_properties
 namespace
 {
 constexpr double PARALLEL_DEG = 10;
-constexpr double ACROSS_DEG = 80;
 
 using Turn = AxisFinding::Turn;
 

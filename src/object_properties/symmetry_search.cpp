@@ -15,7 +15,6 @@ constexpr int FAN_STEPS = 12;             // over half a turn
 constexpr int BALL_DIRECTIONS = 120;      // over the sphere
 constexpr double MAX_START_RATIO = 0.06;  // of the diameter: rms of an axis 10 deg off
 constexpr double SAME_AXIS_DEG = 5;
-constexpr double ACROSS_DEG = 80;
 /// Both ways round, in no simple relation to each other.
 constexpr std::array<double, 7> ANY_ANGLES_DEG{ 17, -29, 53, -73, 101, -137, 180 };
 

@@ -44,6 +44,8 @@ private:
   std::vector<AxisFinding> findings_;
 };
 
+/// Axes at a larger angle are across each other.
+constexpr double ACROSS_DEG = 80;
 /// Degrees between the axes' lines, in [0, 90].
 double angleBetween_deg(const Axis& a, const Axis& b);
 

@@ -12,7 +12,7 @@ namespace object_modelling::object_properties
 {
 namespace
 {
-constexpr std::size_t SAMPLE_COUNT = 400;
+constexpr std::size_t SOUP_SAMPLES = 400;
 constexpr double IGNORED_SHARE = 0.02;
 
 /// Below the plane: the corners and where the edges cross it, in their order; three or four, or none.
@@ -113,7 +113,7 @@ Hollow deepestHollow(const Soup& soup, const geometry::HullSurface& hull)
   }
   const mesh::TriangleMesh surface = meshOf(soup);
   std::vector<Hollow> hollows;
-  for (const mesh::SurfaceSample& sample : mesh::sampleEvenly(surface, SAMPLE_COUNT))
+  for (const mesh::SurfaceSample& sample : mesh::sampleEvenly(surface, SOUP_SAMPLES))
   {
     const Eigen::Vector3f place = mesh::pointAt(surface, sample).cast<float>();
     const Eigen::Vector3f normal = mesh::triangleNormal(surface, sample.triangle);

@@ -9,8 +9,6 @@
 #include "model_frame.h"
 #include "object_modelling/base/options.h"
 #include "object_modelling/database/mesh_evidence.h"
-#include "object_modelling/mesh/mesh_renderer.h"
-#include "object_modelling/mesh/textured_renderer.h"
 #include "object_modelling/report/quality_figures.h"
 #include "object_modelling/report/report_maker.h"
 
@@ -18,7 +16,6 @@ namespace object_modelling::pipeline
 {
 namespace
 {
-constexpr int TURNTABLE_STEPS = 8;
 constexpr double SEEN_RESOLUTIONS = 2;  // of fusion, between a seen place of the mesh and the nearest fused point
 
 class StageTimer
@@ -259,10 +256,7 @@ void Build::completeModel()
   model_.textured = std::move(texture_.textured);
   model_.sessions_left_out = options_.left_out;
   warnings_.insert(warnings_.begin(), partialText(model_));
-  const bool has_texture = texture_.status.ok();
-  model_.preview_bgr = has_texture ? mesh::renderFourSides(model_.textured) : mesh::renderFourSides(model_.mesh);
-  model_.turntable_bgr = has_texture ? mesh::renderTurntable(model_.textured, TURNTABLE_STEPS)
-                                     : mesh::renderTurntable(model_.mesh, TURNTABLE_STEPS);
+  drawPictures(&model_);
   model_.quality_yaml = report::qualityYaml(model_, views_.sessions, views_.origins,
                                             { options_.fusion, options_.surface, options_.texture }, report_.stages);
   timer_.finish("describe");

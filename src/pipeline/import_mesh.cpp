@@ -6,12 +6,12 @@
 #include <sstream>
 
 #include "mesh_views.h"
+#include "model_description.h"
 #include "model_frame.h"
 #include "object_modelling/base/options.h"
 #include "object_modelling/mesh/decimation.h"
 #include "object_modelling/mesh/foreign_mesh.h"
 #include "object_modelling/mesh/mesh_check.h"
-#include "object_modelling/mesh/mesh_renderer.h"
 #include "object_modelling/mesh/surface_sampling.h"
 #include "object_modelling/mesh/textured_renderer.h"
 
@@ -28,7 +28,6 @@ constexpr double MAX_EDGE_RATIO = 0.03;  // of the diagonal: colours and marks a
 constexpr std::size_t MAX_POINTS = 500000;
 constexpr float POINT_SIGMA_M = 0.0001f;  // of a surface that is taken for true
 constexpr float POINT_WEIGHT = 10;        // of a surface seen well from all around
-constexpr int TURNTABLE_STEPS = 8;
 
 Eigen::Vector3f extentOf(const mesh::TriangleMesh& mesh)
 {
@@ -165,12 +164,9 @@ database::ObjectModel modelFromMesh(const std::string& path, const std::string& 
   model.mesh.seen.assign(model.mesh.vertices.size(), 1);
   model.mesh_sigmas_m.assign(model.mesh.vertices.size(), POINT_SIGMA_M);
   model.properties = object_properties::propertiesOf(model.mesh, {}, options.properties, control);
-  const bool has_texture = !textured.texture_bgr.empty();
-  model.preview_bgr = has_texture ? mesh::renderFourSides(textured) : mesh::renderFourSides(model.mesh);
-  model.turntable_bgr = has_texture ? mesh::renderTurntable(textured, TURNTABLE_STEPS)
-                                    : mesh::renderTurntable(model.mesh, TURNTABLE_STEPS);
-  if (has_texture)
+  if (!textured.texture_bgr.empty())
     model.textured = std::move(textured);
+  drawPictures(&model);
   model.quality = { { "view_count", static_cast<double>(model.views.size()) } };
   model.provenance = { { "software", "object_modelling " OBJECT_MODELLING_VERSION },
                        { "imported_mesh", std::filesystem::path(path).filename().string() },

@@ -2,6 +2,8 @@
 
 #include "object_modelling/geometry/plane.h"
 #include "object_modelling/geometry/transform.h"
+#include "object_modelling/mesh/mesh_renderer.h"
+#include "object_modelling/mesh/textured_renderer.h"
 
 namespace object_modelling::pipeline
 {
@@ -54,6 +56,15 @@ void describe(const Views& views, const std::vector<alignment::SessionPlacement>
   for (std::size_t i = 0; i < placements.size(); ++i)
     model->sessions.push_back({ placements[i].session_id, T_model_reference * placements[i].T_reference_session,
                                 views.sessions[i].keyframe_count });
+}
+
+void drawPictures(database::ObjectModel* model)
+{
+  constexpr int TURNTABLE_STEPS = 8;
+  const bool has_texture = !model->textured.empty();
+  model->preview_bgr = has_texture ? mesh::renderFourSides(model->textured) : mesh::renderFourSides(model->mesh);
+  model->turntable_bgr = has_texture ? mesh::renderTurntable(model->textured, TURNTABLE_STEPS)
+                                     : mesh::renderTurntable(model->mesh, TURNTABLE_STEPS);
 }
 
 std::string partialText(const database::ObjectModel& model)

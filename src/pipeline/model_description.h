@@ -20,6 +20,9 @@ void describe(const Views& views, const std::vector<alignment::SessionPlacement>
               const Eigen::Isometry3d& T_model_reference, const geometry::OrientedBox& box_reference,
               database::ObjectModel* model);
 
+/// Preview and turntable of a model, with its texture if it has one.
+void drawPictures(database::ObjectModel* model);
+
 /// Says that a model is partial, and what it lacks; empty where it is whole.
 std::string partialText(const database::ObjectModel& model);
 
