@@ -15,6 +15,11 @@
 
 namespace object_modelling::database
 {
+void damaged(const std::string& path, const std::string& reason)
+{
+  throw base::Error(base::StatusCode::BAD_INPUT, path + " cannot be read: " + reason + "; build the object again");
+}
+
 namespace
 {
 using base::Error;
@@ -64,11 +69,6 @@ void write(const std::string& path, const pcl::PCLPointCloud2& cloud)
     throw Error(StatusCode::STORAGE, "cannot write " + path +
                                          ": check that its folder is writable and the disk has "
                                          "space");
-}
-
-[[noreturn]] void damaged(const std::string& path, const std::string& reason)
-{
-  throw Error(StatusCode::BAD_INPUT, path + " cannot be read: " + reason + "; build the object again");
 }
 
 /// PCL maps the file without checking its sizes, so a truncated one would end the process.

@@ -13,16 +13,12 @@
 #include <opencv2/imgproc.hpp>
 
 #include "object_modelling/base/status.h"
+#include "pcd_files.h"
 
 namespace object_modelling::database
 {
 namespace
 {
-[[noreturn]] void damaged(const std::string& path, const std::string& reason)
-{
-  throw base::Error(base::StatusCode::BAD_INPUT, path + " cannot be read: " + reason + "; build the object again");
-}
-
 geometry::PinholeCamera cameraOf(const YAML::Node& view)
 {
   geometry::PinholeCamera camera;
