@@ -10,6 +10,7 @@
 #include "object_modelling/database/view_files.h"
 #include "object_modelling/features/keyframe_features.h"
 #include "object_modelling/mesh/decimation.h"
+#include "object_modelling/mesh/mesh_check.h"
 #include "object_modelling/mesh/mesh_files.h"
 
 namespace object_modelling::recognition
@@ -36,17 +37,12 @@ ColoredSurface surfaceOf(const fusion::FusedCloud& cloud, std::size_t count)
 
 mesh::TriangleMesh fewTriangles(const mesh::TriangleMesh& mesh, const LearningOptions& options)
 {
+  if (!mesh::checkMesh(mesh).manifold())
+    return mesh;  // cannot be thinned: drawn as it is
   mesh::DecimationOptions decimation;
   decimation.max_triangles = options.max_triangles;
   decimation.max_error_m = options.max_mesh_error_m;
-  try
-  {
-    return mesh::decimate(mesh, decimation).mesh;
-  }
-  catch (const base::Error&)
-  {
-    return mesh;  // no manifold: drawn as it is
-  }
+  return mesh::decimate(mesh, decimation).mesh;
 }
 
 void learnFeatures(const std::vector<rgbd::View>& views, const LearningOptions& options, base::JobControl& control,

@@ -57,6 +57,25 @@ TEST(ImportMesh, ABoxInMillimetersBecomesAnObject)
     EXPECT_GT(cloud.normals[i].dot(cloud.points[i]), 0.02f);
 }
 
+TEST(ImportMesh, AStoolOnThinLegsHasNoUnseenBottom)
+{
+  const test_support::TempDir folder;
+  database::ObjectDatabase database(folder.path("db"), true);
+  mesh::TriangleMesh stool;
+  test_support::addBox({ 0, 0, 0.05F }, { 0.1F, 0.1F, 0.02F }, 4, &stool);
+  for (const float x : { 0.F, 0.096F })
+    for (const float y : { 0.F, 0.096F })
+      test_support::addBox({ x, y, 0 }, { 0.004F, 0.004F, 0.05F }, 1, &stool);
+  mesh::writeMesh(folder.path("stool.ply"), stool);
+  base::JobControl control;
+  ImportOptions options;
+  options.unit_m = 1;
+  importMesh(folder.path("stool.ply"), "stool", "", database, options, control);
+  ASSERT_TRUE(database.entry("stool").properties->unseen);
+  EXPECT_EQ(database.entry("stool").properties->unseen->ratio, 0);
+  EXPECT_FALSE(database.entry("stool").properties->unseen->bottom);
+}
+
 TEST(ImportMesh, ViewsShowTheObject)
 {
   const test_support::TempDir folder;
