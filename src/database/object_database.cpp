@@ -150,6 +150,14 @@ ObjectEntry ObjectDatabase::entry(const std::string& object_id) const
   return readObject(root_ + "/" + object_id).entry;
 }
 
+std::map<std::string, std::string> ObjectDatabase::contentHashes() const
+{
+  std::map<std::string, std::string> hashes;
+  for (const auto& [id, listed] : readManifest(manifestPath(root_)).objects)
+    hashes[id] = listed.content_hash;
+  return hashes;
+}
+
 std::string ObjectDatabase::write(const ObjectModel& model, base::JobControl& control, const ReportMaker& make_report)
 {
   checkModel(model);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,8 @@ public:
   /// By id. Objects that cannot be read are left out with a warning; check() names them.
   std::vector<ObjectEntry> list() const;
   ObjectEntry entry(const std::string& object_id) const;
+  /// By id, of manifest.yaml alone: tells quickly what has changed, and names objects that cannot be read, too.
+  std::map<std::string, std::string> contentHashes() const;
   /// Writes or replaces one object in one atomic step; returns its folder. The same model gives the same bytes.
   /// Cancelling leaves the database as it was.
   /// `make_report` may add report.html to the finished folder before it is put in place.
