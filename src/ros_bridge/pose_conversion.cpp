@@ -53,13 +53,20 @@ geometry_msgs::Pose toPoseMessage(const Eigen::Isometry3d& T_target_source)
   return message;
 }
 
+geometry_msgs::Vector3 toVectorMessage(const Eigen::Vector3d& vector)
+{
+  geometry_msgs::Vector3 message;
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+  return message;
+}
+
 geometry_msgs::Transform toTransformMessage(const Eigen::Isometry3d& T_target_source)
 {
   const geometry_msgs::Pose pose = toPoseMessage(T_target_source);
   geometry_msgs::Transform message;
-  message.translation.x = pose.position.x;
-  message.translation.y = pose.position.y;
-  message.translation.z = pose.position.z;
+  message.translation = toVectorMessage(T_target_source.translation());
   message.rotation = pose.orientation;
   return message;
 }

@@ -3,6 +3,7 @@
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/PoseWithCovariance.h>
 #include <geometry_msgs/Transform.h>
+#include <geometry_msgs/Vector3.h>
 #include <object_modelling/Plane.h>
 #include <object_modelling/PoseUpdate.h>
 #include <Eigen/Geometry>
@@ -15,6 +16,7 @@ namespace object_modelling::ros_bridge
 {
 geometry_msgs::Pose toPoseMessage(const Eigen::Isometry3d& T_target_source);
 geometry_msgs::Transform toTransformMessage(const Eigen::Isometry3d& T_target_source);
+geometry_msgs::Vector3 toVectorMessage(const Eigen::Vector3d& vector);
 /// `covariance` as geometry::Matrix6d has it; in the message it is that of the position and of rotations about the
 /// target's axes, through the source's origin, as ROS defines it.
 geometry_msgs::PoseWithCovariance toMessage(const Eigen::Isometry3d& T_target_source,

@@ -7,8 +7,8 @@
 
 #include <object_modelling/TrackingState.h>
 
+#include "../common/frame_pairer.h"
 #include "camera_tracker_options.h"
-#include "frame_pairer.h"
 #include "object_modelling/pipeline/session_recorder.h"
 #include "object_modelling/rgbd/frame_builder.h"
 #include "robot_motion.h"

@@ -7,7 +7,7 @@
 
 #include <ros/node_handle.h>
 
-#include "../camera_tracker/frame_pairer.h"
+#include "frame_pairer.h"
 #include "object_modelling/rgbd/frame_builder.h"
 
 namespace object_modelling::nodes

@@ -4,27 +4,19 @@
 
 #include "../common/data_path.h"
 #include "left_out_message.h"
+#include "object_modelling/ros_bridge/pose_conversion.h"
 #include "placement_message.h"
 
 namespace object_modelling::nodes
 {
 namespace
 {
-geometry_msgs::Vector3 toMessage(const Eigen::Vector3d& vector)
-{
-  geometry_msgs::Vector3 message;
-  message.x = vector.x();
-  message.y = vector.y();
-  message.z = vector.z();
-  return message;
-}
-
 object_modelling::ObjectSummary toMessage(const database::ObjectEntry& entry)
 {
   object_modelling::ObjectSummary message;
   message.object_id = entry.id;
   message.name = entry.name;
-  message.size_m = toMessage(entry.size_m);
+  message.size_m = ros_bridge::toVectorMessage(entry.size_m);
   message.diameter_m = entry.diameter_m;
   for (const database::ModelSession& session : entry.sessions)
     message.session_ids.push_back(session.id);
@@ -42,7 +34,7 @@ object_modelling::BuiltObject toMessage(const pipeline::BuildReport& report, con
   message.object_id = object_id;
   message.object_folder = report.object_folder;
   message.preview_path = report.preview_path;
-  message.size_m = toMessage(report.size_m);
+  message.size_m = ros_bridge::toVectorMessage(report.size_m);
   message.diameter_m = report.diameter_m;
   message.point_count = report.point_count;
   message.vertex_count = report.vertex_count;

@@ -2,7 +2,7 @@
 
 #include <ros/node_handle.h>
 
-#include "newest_frame.h"
+#include "../common/newest_frame.h"
 #include "object_modelling/segmentation/scene_segmenter.h"
 
 namespace object_modelling::nodes

@@ -11,9 +11,9 @@
 #include <object_modelling/SetRoi.h>
 
 #include "../common/job_server.h"
+#include "../common/newest_frame.h"
 #include "hypotheses_publisher.h"
 #include "live_masks.h"
-#include "newest_frame.h"
 #include "object_modelling/ros_bridge/remote_session_store.h"
 #include "segmenter_options.h"
 #include "selection.h"

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "nodes/camera_tracker/frame_pairer.h"
 #include "nodes/camera_tracker/newest_slot.h"
+#include "nodes/common/frame_pairer.h"
 
 namespace object_modelling::nodes
 {
