@@ -5,6 +5,7 @@
 #include "nodes/jobs/refiner_options.h"
 #include "nodes/jobs/session_aligner_options.h"
 #include "nodes/manager/manager_options.h"
+#include "nodes/recogniser/recogniser_options.h"
 #include "nodes/segmenter/segmenter_options.h"
 #include "support/violations.h"
 #include "yaml_parameters.h"
@@ -78,6 +79,11 @@ TEST(Config, ModelBuilder)
 TEST(Config, ModellingManager)
 {
   expectDefaults<ManagerOptions>("modelling_manager");
+}
+
+TEST(Config, Recogniser)
+{
+  expectDefaults<RecogniserNodeOptions>("recogniser");
 }
 
 TEST(Config, BoundsOfTheModellingManager)
