@@ -14,7 +14,15 @@ DetectionsPublisher::DetectionsPublisher(ros::NodeHandle& private_node)
 void DetectionsPublisher::publish(const FoundObjects& found, const object_modelling::Detections& message)
 {
   detections_.publish(message);
-  broadcaster_.sendTransform(transformsOf(found));
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  for (const geometry_msgs::TransformStamped& transform : transformsOf(found))
+  {
+    ros::Time& last = last_stamps_[transform.child_frame_id];
+    if (last != transform.header.stamp)
+      transforms.push_back(transform);
+    last = transform.header.stamp;
+  }
+  broadcaster_.sendTransform(transforms);
   if (markers_.getNumSubscribers() > 0)
     markers_.publish(markersOf(found));
 }

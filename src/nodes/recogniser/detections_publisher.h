@@ -21,6 +21,7 @@ public:
 private:
   ros::Publisher detections_, markers_, database_;
   tf2_ros::TransformBroadcaster broadcaster_;
+  std::map<std::string, ros::Time> last_stamps_;  ///< of each frame that was sent: tf warns of repeated ones
 };
 
 /// For ~database and ~reload.
