@@ -164,7 +164,7 @@ database::ObjectModel modelFromMesh(const std::string& path, const std::string& 
   model.mesh.seen.assign(model.mesh.vertices.size(), 1);
   model.mesh_sigmas_m.assign(model.mesh.vertices.size(), POINT_SIGMA_M);
   model.properties = object_properties::propertiesOf(model.mesh, {}, options.properties, control);
-  model.properties.unseen = object_properties::Unseen{ 0, false };  // the file has the whole surface
+  model.properties->unseen = object_properties::Unseen{ 0, false };  // the file has the whole surface
   if (!textured.texture_bgr.empty())
     model.textured = std::move(textured);
   drawPictures(&model);
