@@ -1,5 +1,8 @@
 #include "tracking_publisher.h"
 
+#include <chrono>
+#include <thread>
+
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <object_modelling/Keyframe.h>
@@ -17,6 +20,8 @@ namespace
 namespace names = ros_bridge::names;
 
 constexpr int OUTPUT_QUEUE_SIZE = 10;
+constexpr std::chrono::seconds LISTENER_WAIT(2);
+constexpr std::chrono::milliseconds LISTENER_POLL(20);
 /// Keyframes must not be lost while the store is busy.
 constexpr int KEYFRAME_QUEUE_SIZE = 200;
 }  // namespace
@@ -29,6 +34,14 @@ TrackingPublisher::TrackingPublisher(ros::NodeHandle& private_node, const Camera
       keyframe_(private_node.advertise<object_modelling::Keyframe>(names::KEYFRAME, KEYFRAME_QUEUE_SIZE)),
       debug_image_(private_node.advertise<sensor_msgs::Image>("debug_image", 1))
 {
+}
+
+bool TrackingPublisher::keyframesAreHeard() const
+{
+  const auto deadline = std::chrono::steady_clock::now() + LISTENER_WAIT;
+  while (keyframe_.getNumSubscribers() == 0 && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(LISTENER_POLL);
+  return keyframe_.getNumSubscribers() > 0;
 }
 
 void TrackingPublisher::publishPose(const tracking::TrackingResult& result, const std_msgs::Header& header)

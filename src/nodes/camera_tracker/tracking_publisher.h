@@ -20,7 +20,8 @@ public:
   void publishState(const object_modelling::TrackingState& state) { state_.publish(state); }
 
   /// Whether somebody takes the keyframes.
-  bool keyframesAreHeard() const { return keyframe_.getNumSubscribers() > 0; }
+  /// Waits for a listener by the wall clock: nodes that start together find each other in some tenths of a second.
+  bool keyframesAreHeard() const;
   std::string keyframeTopic() const { return keyframe_.getTopic(); }
 
 private:
