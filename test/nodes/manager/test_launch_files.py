@@ -23,7 +23,18 @@ def parameter(config, name):
 
 class LaunchFilesTest(unittest.TestCase):
     def test_all_of_them_are_tested(self):
-        self.assertEqual(set(os.listdir(LAUNCH)), {"object_modelling.launch", "demo.launch", "alignment_review.launch"})
+        self.assertEqual(set(os.listdir(LAUNCH)), {"object_modelling.launch", "demo.launch", "alignment_review.launch",
+                                                   "recognition.launch"})
+
+    def test_recognition(self):
+        config = load("recognition.launch", "camera:=kinect", "database_path:=/d", "rate_hz:=2")
+        self.assertEqual({node.name for node in config.nodes}, {"recogniser", "rviz_recognition"})
+        self.assertEqual(parameter(config, "recogniser/database_path"), "/d")
+        self.assertEqual(parameter(config, "recogniser/rate_hz"), 2)
+        recogniser = [node for node in config.nodes if node.name == "recogniser"][0]
+        self.assertTrue(recogniser.respawn)
+        self.assertEqual(dict(recogniser.remap_args)["rgb/image_rect_color"], "/kinect/rgb/image_rect_color")
+        self.assertEqual({node.name for node in load("recognition.launch", "rviz:=false").nodes}, {"recogniser"})
 
     def test_nodes(self):
         config = load("object_modelling.launch")
