@@ -64,7 +64,7 @@ class CerealBoxTest(unittest.TestCase):
                                "scene_gt_info.json")) as text:
             fractions = [info[0]["visib_fract"] for info in json.load(text).values()]
         self.assertGreater(sorted(fractions)[len(fractions) // 2], 0.8)  # masks and poses fit each other
-        self.assertEqual(run_json("info", self.database)["problems"], [])
+        self.assertEqual(run_json("check", self.database)["problems"], [])
 
     def test_the_store_keeps_the_session(self):
         sessions = run_json("info", self.store)["sessions"]
