@@ -66,8 +66,8 @@ class EndToEndTest(unittest.TestCase):
         for path in (built.object_folder, built.mesh_path, built.preview_path):
             self.assertTrue(os.path.exists(path), path)
         stages = [stage.stage for stage in built.stages]
-        self.assertEqual(stages, ["refine", "segment", "align", "load", "fuse", "surface", "texture", "describe", "write",
-                                  "report"])
+        self.assertEqual(stages, ["refine", "segment", "align", "load", "fuse", "surface", "texture", "properties",
+                                  "describe", "write", "report"])
         self.assertIn("preview", lines[-1])
 
         objects = call("list_objects", srv.ListObjects)
