@@ -22,8 +22,8 @@ namespace
 {
 using namespace object_modelling;
 
-const std::vector<std::string> STAGES = { "bundle adjustment", "multi-view ICP", "segment",  "load", "fuse",
-                                          "surface",           "texture",        "describe", "write" };
+const std::vector<std::string> STAGES = { "bundle adjustment", "multi-view ICP", "segment",    "load",     "fuse",
+                                          "surface",           "texture",        "properties", "describe", "write" };
 
 constexpr char SESSION_ID[] = "session";
 
