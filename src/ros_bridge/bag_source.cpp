@@ -75,9 +75,10 @@ public:
     return readingBag(path_,
                       [&]() -> std::optional<rgbd::RawFrame>
                       {
-                        rgbd::RawFrame raw = rawFrame(rectified ? ImageKind::RECTIFIED : ImageKind::RAW);
+                        const BagInstant current = instant_;
+                        more_ = false;  // should the bag be damaged from here on
                         more_ = messages_->next(&instant_);
-                        return raw;
+                        return rawFrame(current, rectified ? ImageKind::RECTIFIED : ImageKind::RAW);
                       });
   }
 
@@ -86,13 +87,13 @@ public:
   std::string name() const override { return path_; }
 
 private:
-  rgbd::RawFrame rawFrame(ImageKind kind) const
+  rgbd::RawFrame rawFrame(const BagInstant& instant, ImageKind kind) const
   {
     try
     {
-      rgbd::RawFrame raw = rawFrameFromMessages(*instant_.color, *instant_.depth, *instant_.info, kind);
-      if (instant_.object_mask)
-        raw.object_mask = maskFromMessage(*instant_.object_mask);
+      rgbd::RawFrame raw = rawFrameFromMessages(*instant.color, *instant.depth, *instant.info, kind);
+      if (instant.object_mask)
+        raw.object_mask = maskFromMessage(*instant.object_mask);
       return raw;
     }
     catch (const base::Error& error)

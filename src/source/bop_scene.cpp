@@ -74,7 +74,7 @@ public:
   {
     if (next_ == cameras_.end())
       return std::nullopt;
-    const auto& [number, image] = *next_;
+    const auto& [number, image] = *next_++;
     rgbd::RawFrame frame;
     frame.stamp_s = FIRST_STAMP_S + number / RATE_HZ;
     frame.depth_stamp_s = frame.stamp_s;
@@ -87,7 +87,6 @@ public:
     frame.camera = image.camera;
     frame.camera.width = frame.color.cols;
     frame.camera.height = frame.color.rows;
-    ++next_;
     return frame;
   }
   std::optional<std::size_t> size() const override { return cameras_.size(); }

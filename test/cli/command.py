@@ -10,6 +10,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 COMMAND = os.environ["OBJECT_MODELLING_COMMAND"]
 DATA = os.environ["OBJECT_MODELLING_TEST_DATA"]
 CEREAL_BOX = os.path.join(DATA, "cereal_box_turntable")
+CLUTTER = os.path.join(DATA, "clutter_simulated")
 HANDHELD = os.path.join(DATA, "mustard_handheld_simulated")
 
 

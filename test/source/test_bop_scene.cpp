@@ -82,6 +82,15 @@ TEST_F(BopSceneTest, NamesWhatIsMalformed)
   expectBadInput("names no images");
 }
 
+TEST_F(BopSceneTest, GoesOnBehindAnUnreadableImage)
+{
+  base::writeTextFile(dir_.path("rgb/000003.png"), "no image");
+  const auto scene = openBopScene(dir_.path(""));
+  EXPECT_THROW(scene->next(), base::Error);
+  ASSERT_TRUE(scene->next());
+  EXPECT_FALSE(scene->next());
+}
+
 TEST_F(BopSceneTest, DepthOfEightBitsIsRefused)
 {
   cv::imwrite(dir_.path("depth/000003.png"), cv::Mat(24, 32, CV_8UC1, cv::Scalar(50)));

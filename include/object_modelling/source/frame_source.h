@@ -14,7 +14,8 @@ class FrameSource
 {
 public:
   virtual ~FrameSource() = default;
-  /// Next frame, or nothing at the end. Throws base::Error (BAD_INPUT, naming the file) for an unreadable image.
+  /// Next frame, or nothing at the end. Throws base::Error (BAD_INPUT, naming the file) for an unreadable image; the
+  /// call after that goes on behind it.
   virtual std::optional<rgbd::RawFrame> next() = 0;
   /// Number of frames; nothing for a live device.
   virtual std::optional<std::size_t> size() const = 0;
