@@ -73,15 +73,18 @@ class Camera:
         self._timer.join()
 
     def send(self):
-        now = rospy.Time.now()
+        for publisher, message in zip((self._info, self._color, self._depth), self.messages(rospy.Time.now())):
+            publisher.publish(message)
+
+    def messages(self, now):
+        """camera_info, colour, depth."""
         info = CameraInfo(width=640, height=480, distortion_model="plumb_bob", D=[0.0] * 5)
         info.header.stamp, info.header.frame_id = now, FRAME_ID
         info.K = [525, 0, 319.5, 0, 525, 239.5, 0, 0, 1]
         info.R = [1, 0, 0, 0, 1, 0, 0, 0, 1]
         info.P = [525, 0, 319.5, 0, 0, 525, 239.5, 0, 0, 0, 1, 0]
-        self._info.publish(info)
-        self._color.publish(image_message(self._images[0], "bgr8", now, FRAME_ID))
-        self._depth.publish(image_message(self._images[1], "16UC1", now, FRAME_ID))
+        return (info, image_message(self._images[0], "bgr8", now, FRAME_ID),
+                image_message(self._images[1], "16UC1", now, FRAME_ID))
 
 
 class RecogniserTest(unittest.TestCase):
@@ -131,6 +134,8 @@ class RecogniserTest(unittest.TestCase):
         shutil.copytree(self.made, self.root)
         self.wait_for_known("mustard")
         self.without_frames()
+        self.searches_given_images()
+        self.gives_the_model()
         self.camera.start()
         self.finds_the_object()
         self.publishes_without_a_call()
@@ -156,6 +161,63 @@ class RecogniserTest(unittest.TestCase):
         self.refused(Code.FAILED_PRECONDITION, ["no frame yet", "/depth_registered/image_rect", "/rgb/camera_info"])
         self.assertGreater(time.monotonic() - start, TIMEOUT_S - 0.1)
         self.assertLess(time.monotonic() - start, TIMEOUT_S + 3)
+
+    def given(self, **more):
+        """The camera's image as part of a call; no camera has published anything."""
+        images = self.camera.messages(rospy.Time(7))
+        return dict(dict(zip(("camera_info", "color", "depth"), images)), **more)
+
+    def searches_given_images(self):
+        answer = self.found(**self.given())
+        self.assertEqual((answer.header.stamp, answer.header.frame_id), (rospy.Time(7), FRAME_ID))
+        self.assertEqual([d.object_id for d in answer.detections], ["mustard"])
+        only_color = {"color": self.given()["color"]}
+        self.refused(Code.INVALID_ARGUMENT, ["color", "depth", "camera_info"], **only_color)
+        self.refused(Code.INVALID_ARGUMENT, ["wait"], **self.given(wait=rospy.Duration(1)))
+        elsewhere = self.given()["depth"]
+        elsewhere.header.frame_id = "depth_frame"
+        self.refused(Code.BAD_INPUT, ["depth_frame", "registered"], **self.given(depth=elsewhere))
+        small = image_message(np.ones((10, 10), np.uint16), "16UC1", rospy.Time(7), FRAME_ID)
+        self.refused(Code.BAD_INPUT, ["10"], **self.given(depth=small))
+
+    @staticmethod
+    def model(object_id):
+        return rospy.ServiceProxy("recogniser/get_object_model", srv.GetObjectModel)(object_id)
+
+    def gives_the_model(self):
+        answer = self.model("mustard")
+        self.assertEqual(answer.status.code, Code.OK, answer.status.message)
+        found = answer.object
+        with open(os.path.join(self.made, "mustard", "object.yaml")) as text:
+            written = yaml.safe_load(text)
+        self.assertEqual((found.object_id, found.content_hash), ("mustard", self.known.content_hashes[0]))
+        np.testing.assert_allclose([found.size_m.x, found.size_m.y, found.size_m.z], written["size_m"])
+        np.testing.assert_allclose(found.diameter_m, written["diameter_m"])
+        mesh = found.mesh
+        self.assertEqual({len(mesh.vertices)}, {len(mesh.normals), len(mesh.colors)})
+        self.assertEqual(len(mesh.triangles) % 3, 0)
+        self.assertLess(max(mesh.triangles), len(mesh.vertices))
+        corners = np.array([(v.x, v.y, v.z) for v in mesh.vertices])
+        self.assertLess(np.ptp(corners, 0).max(), found.diameter_m + 1e-3)
+        self.check_cloud(found.cloud, found.diameter_m)
+        self.assertTrue(found.has_properties)
+        self.assertAlmostEqual(sum(pose.probability for pose in found.resting_poses), 1, places=3)
+        self.assertTrue(any(pose.seen for pose in found.resting_poses))
+        self.assertEqual(len(found.symmetries), len(written["symmetries"]))
+        self.assertAlmostEqual(found.inertia.m, found.volume_m3 * found.density_kg_m3, places=6)
+        self.assertGreater(min(found.inertia.ixx, found.inertia.iyy, found.inertia.izz), 0)
+        self.assertEqual(found.has_unseen, "unseen" in written)
+        unknown = self.model("cup").status
+        self.assertEqual(unknown.code, Code.NOT_FOUND)
+        self.assertIn("mustard", unknown.message)
+
+    def check_cloud(self, cloud, diameter_m):
+        self.assertEqual([f.name for f in cloud.fields], ["x", "y", "z", "rgb", "normal_x", "normal_y", "normal_z"])
+        numbers = np.frombuffer(cloud.data, np.float32).reshape(cloud.width, cloud.point_step // 4)
+        self.assertLess(np.linalg.norm(numbers[:, :3], axis=1).max(), diameter_m)
+        np.testing.assert_allclose(np.linalg.norm(numbers[:, 4:7], axis=1), 1, atol=1e-3)
+        blue, green, red = np.frombuffer(cloud.data, np.uint8).reshape(cloud.width, -1)[:, 12:15].mean(0)
+        self.assertGreater(min(red, green), blue + 20)  # mustard
 
     def finds_the_object(self):
         start = rospy.Time.now()
@@ -224,6 +286,9 @@ class RecogniserTest(unittest.TestCase):
         self.assertEqual(self.known.ids, ["mustard"])
         self.assertEqual([d.object_id for d in self.found().detections], ["mustard"])
         self.refused(Code.NOT_FOUND, ["'twin'", "cloud.pcd"], "twin")
+        damaged = self.model("twin").status
+        self.assertEqual(damaged.code, Code.BAD_INPUT, damaged.message)
+        self.assertIn("cloud.pcd", damaged.message)
         shutil.copy(os.path.join(self.made, "mustard", "cloud.pcd"), twin)
         answer = self.reload()
         self.assertEqual((answer.status.code, answer.known.ids), (Code.OK, ["mustard", "twin"]), answer.status.message)

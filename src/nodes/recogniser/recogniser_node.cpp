@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "object_model_message.h"
+#include "object_modelling/ros_bridge/frame_conversion.h"
 #include "object_modelling/ros_bridge/status_conversion.h"
 
 namespace object_modelling::nodes
@@ -9,6 +11,7 @@ namespace object_modelling::nodes
 namespace
 {
 constexpr double WARN_INTERVAL_S = 5;
+constexpr int DATABASE_THREADS = 2;  // ~get_object_model does not wait for ~reload
 
 std::string idsOf(const KnownObjects& known)
 {
@@ -60,6 +63,15 @@ void checkRequest(const object_modelling::Recognise::Request& request)
   if ((request.roi.width == 0) != (request.roi.height == 0))
     throw base::Error(base::StatusCode::INVALID_ARGUMENT,
                       "roi has width or height 0: give both, or neither for the whole image");
+  const int given = (request.color.data.empty() ? 0 : 1) + (request.depth.data.empty() ? 0 : 1) +
+                    (request.camera_info.K[0] == 0 && request.camera_info.P[0] == 0 ? 0 : 1);
+  if (given != 0 && given != 3)
+    throw base::Error(base::StatusCode::INVALID_ARGUMENT,
+                      "of color, depth and camera_info only some are given: give all three, or none for the camera's "
+                      "newest frame");
+  if (given != 0 && request.wait > ros::Duration(0))
+    throw base::Error(base::StatusCode::INVALID_ARGUMENT,
+                      "wait is for the camera's frames: leave it 0 with own images");
 }
 
 base::Result<StampedFrame> checked(base::Result<StampedFrame> frame)
@@ -75,16 +87,18 @@ RecogniserNode::RecogniserNode(ros::NodeHandle& node, ros::NodeHandle& private_n
     : options_(options),
       database_path_(dataPath(options.database_path, "objects")),
       input_(node, options.frame),
+      given_frames_(options.frame),
       publisher_(private_node),
       watch_(database_path_, options.poll_period_s, options.recogniser,
              [this](const KnownObjects& known) { publisher_.publishKnown(known); }),
       recognise_service_(private_node.advertiseService("recognise", &RecogniserNode::recognise, this)),
-      reload_spinner_(1, &reload_queue_)
+      database_spinner_(DATABASE_THREADS, &database_queue_)
 {
-  ros::NodeHandle reload_node(private_node);
-  reload_node.setCallbackQueue(&reload_queue_);
-  reload_service_ = reload_node.advertiseService("reload", &RecogniserNode::reload, this);
-  reload_spinner_.start();
+  ros::NodeHandle database_node(private_node);
+  database_node.setCallbackQueue(&database_queue_);
+  reload_service_ = database_node.advertiseService("reload", &RecogniserNode::reload, this);
+  model_service_ = database_node.advertiseService("get_object_model", &RecogniserNode::getObjectModel, this);
+  database_spinner_.start();
   if (options.rate_hz > 0)
     timer_ =
         node.createWallTimer(ros::WallDuration(1 / options.rate_hz), [this](const ros::WallTimerEvent&) { onTimer(); });
@@ -107,6 +121,21 @@ std::shared_ptr<const KnownObjects> RecogniserNode::objectsFor(const std::vector
   return known;
 }
 
+StampedFrame RecogniserNode::frameFor(const object_modelling::Recognise::Request& request)
+{
+  const double wait_s = request.wait.toSec();
+  if (request.color.data.empty())
+    return checked(wait_s > 0 ? input_.getNext(wait_s) : input_.get(options_.input_timeout_s)).value;
+  const base::Status registered = ros_bridge::checkRegistered(request.color.header, request.depth.header);
+  if (!registered.ok())
+    throw base::Error(registered.code, registered.message);
+  base::Result<rgbd::Frame> frame = given_frames_.build(ros_bridge::rawFrameFromMessages(
+      request.color, request.depth, request.camera_info, ros_bridge::ImageKind::RECTIFIED));
+  if (!frame.ok())
+    throw base::Error(frame.status.code, frame.status.message);
+  return { request.color.header, std::move(frame.value) };
+}
+
 bool RecogniserNode::recognise(object_modelling::Recognise::Request& request,
                                object_modelling::Recognise::Response& response)
 {
@@ -115,11 +144,9 @@ bool RecogniserNode::recognise(object_modelling::Recognise::Request& request,
                             {
                               checkRequest(request);
                               objectsFor(request.object_ids);
-                              const double wait_s = request.wait.toSec();
-                              const base::Result<StampedFrame> frame =
-                                  checked(wait_s > 0 ? input_.getNext(wait_s) : input_.get(options_.input_timeout_s));
-                              FoundObjects found = search(frame.value, objectsFor(request.object_ids));
-                              keepWanted(request, frame.value.frame.camera, &found);
+                              const StampedFrame frame = frameFor(request);
+                              FoundObjects found = search(frame, objectsFor(request.object_ids));
+                              keepWanted(request, frame.frame.camera, &found);
                               response.detections = detectionsMessage(found);
                               publisher_.publish(found, response.detections);
                             });
@@ -131,6 +158,12 @@ bool RecogniserNode::reload(object_modelling::ReloadDatabase::Request&,
   const base::Status status = ros_bridge::guarded([&] { response.known = knownMessage(*watch_.reload()); });
   response.status = status.ok() ? response.known.status : ros_bridge::toMessage(status);
   return true;
+}
+
+bool RecogniserNode::getObjectModel(object_modelling::GetObjectModel::Request& request,
+                                    object_modelling::GetObjectModel::Response& response)
+{
+  return ros_bridge::answer(response, [&] { response.object = objectModelMessage(database_path_, request.object_id); });
 }
 
 void RecogniserNode::onTimer()
