@@ -4,7 +4,7 @@ import threading
 
 import rospy
 
-from object_modelling import msg, srv
+from object_modelling import msg, parameters, srv
 from object_modelling.exporters import command
 from object_modelling.outcome import Code, Failure
 
@@ -17,17 +17,6 @@ def database_folder(path):
         return os.path.expanduser(path)
     home = os.environ.get("ROS_HOME") or os.path.join(os.path.expanduser("~"), ".ros")
     return os.path.join(home, "object_modelling", "objects")
-
-
-def read_parameters(given):
-    """Values by name of a node's private parameters. Raises Failure that names all that is wrong."""
-    wrong = ["~%s is not known" % name for name in sorted(set(given) - set(PARAMETERS))]
-    wrong += ["~%s must be text, but is %r" % (name, value) for name, value in sorted(given.items())
-              if name in PARAMETERS and not isinstance(value, str)]
-    if wrong:
-        raise Failure(Code.INVALID_ARGUMENT, "parameters of exporter: %s; known: %s" % (
-            "; ".join(wrong), ", ".join(PARAMETERS)))
-    return dict(PARAMETERS, **given)
 
 
 class Exporter:
@@ -61,12 +50,12 @@ class Exporter:
 def main():
     rospy.init_node("exporter")
     try:
-        parameters = read_parameters(rospy.get_param("~", {}))
+        values = parameters.read("exporter", PARAMETERS, rospy.get_param("~", {}))
     except Failure as failure:
         rospy.logfatal(failure.message)
         return 1
-    exporter = Exporter(parameters["database_path"])
-    rospy.loginfo("exporter: %s", parameters)
+    exporter = Exporter(values["database_path"])
+    rospy.loginfo("exporter: %s", values)
     rospy.spin()
     del exporter
     return 0

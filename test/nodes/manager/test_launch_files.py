@@ -35,6 +35,9 @@ class LaunchFilesTest(unittest.TestCase):
         self.assertTrue(recogniser.respawn)
         self.assertEqual(dict(recogniser.remap_args)["rgb/image_rect_color"], "/kinect/rgb/image_rect_color")
         self.assertEqual({node.name for node in load("recognition.launch", "rviz:=false").nodes}, {"recogniser"})
+        config = load("recognition.launch", "rviz:=false", "adapter:=true")
+        self.assertEqual({node.name for node in config.nodes}, {"recogniser", "recognition_adapter"})
+        self.assertEqual(parameter(config, "recognition_adapter/cam_info_topic"), "")
 
     def test_nodes(self):
         config = load("object_modelling.launch")
