@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, starts the nodes, plays a recording into them and drives the session by services.
+# Installs what is missing, builds, starts the nodes, plays a recording into them and drives the session by services; or
+# models two objects and has the recogniser find them.
 . "$(dirname "${BASH_SOURCE[0]}")/tools/environment.sh"
 usage() {
   cat <<'TEXT'
-usage: ./demo.sh [--handheld | --recording PATH [--reference scene|object]] [--headless] [--out FOLDER]
+usage: ./demo.sh [--handheld | --recognise | --recording PATH [--reference scene|object]] [--headless] [--out FOLDER]
   (nothing)         the real recording that ships with the project: a cereal box on a turntable
   --handheld        the simulated handheld recording that ships with the project: a bottle on a table, 30 Hz
+  --recognise       models the bottle and a sugar box (simulated), and finds both among other things, with pictures
   --recording PATH  your own TUM-style folder or ROS bag
   --reference WHAT  what it is tracked against: scene (default) or object (turntable, object in motion)
   --headless        no rviz, even with a display
@@ -13,11 +15,12 @@ usage: ./demo.sh [--handheld | --recording PATH [--reference scene|object]] [--h
 TEXT
 }
 recording="$root/test/data/cereal_box_turntable" reference=object object_id=cereal_box
-rviz=false out="$build_dir/demo"
+rviz=false recognise=false out="$build_dir/demo"
 [ -n "${DISPLAY:-}" ] && rviz=true
 while [ $# -gt 0 ]; do
   case "$1" in
     --handheld) recording="$root/test/data/mustard_handheld_simulated" reference=scene object_id=mustard_bottle ;;
+    --recognise) recognise=true ;;
     --recording)
       [ $# -gt 1 ] || fail "--recording takes a path"
       recording="$(realpath -m "$2")" reference=scene object_id=my_object; shift ;;
@@ -40,8 +43,18 @@ mkdir -p "$out" || fail "cannot write to $out: choose another folder with --out"
 port="$(/usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])')"
 export ROS_MASTER_URI="http://localhost:$port" ROS_HOME="$out/ros_home"
 log="$out/nodes.log"
-roslaunch -p "$port" object_modelling demo.launch drive:=false recording:="$recording" reference:="$reference" rviz:="$rviz" \
-  store_path:="$out/keyframes.sqlite" database_path:="$out/objects" >"$log" 2>&1 &
+if [ "$recognise" = true ]; then
+  scene="$root/test/data/clutter_simulated" objects="$out/recognition/objects"
+  object_modelling model mustard_bottle "$root/test/data/mustard_handheld_simulated" --database "$objects"
+  object_modelling model sugar_box "$root/test/data/sugar_box_simulated" --database "$objects"
+  launch=(recognition_demo.launch scene:="$scene" database_path:="$objects")
+  drive=(recognition_demo "$scene" --wait-for mustard_bottle sugar_box --out "$out/recognition")
+else
+  launch=(demo.launch drive:=false recording:="$recording" reference:="$reference" store_path:="$out/keyframes.sqlite"
+    database_path:="$out/objects")
+  drive=(demo "$recording" --object-id "$object_id")
+fi
+roslaunch -p "$port" object_modelling "${launch[@]}" rviz:="$rviz" >"$log" 2>&1 &
 nodes=$!
 stop_nodes() { kill -INT "$nodes" 2>/dev/null && wait "$nodes" 2>/dev/null || true; }
 trap stop_nodes EXIT
@@ -49,13 +62,13 @@ trap 'exit 130' INT TERM
 
 for _ in $(seq 100); do (exec 3<>"/dev/tcp/localhost/$port") 2>/dev/null && break || sleep 0.1; done
 result=0
-demo "$recording" --object-id "$object_id" || result=$?
+"${drive[@]}" || result=$?
 if [ "$result" -ne 0 ]; then
   tail -n 15 "$log" >&2
   fail "the demo did not end well (exit code $result); all that the nodes said is in $log"
 fi
 echo "nodes:   $log"
 if [ "$rviz" = true ]; then
-  echo "rviz shows the model. Close it with Ctrl-C here."
+  echo "rviz shows it. Close it with Ctrl-C here."
   wait "$nodes" || true
 fi

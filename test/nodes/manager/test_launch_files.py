@@ -24,7 +24,7 @@ def parameter(config, name):
 class LaunchFilesTest(unittest.TestCase):
     def test_all_of_them_are_tested(self):
         self.assertEqual(set(os.listdir(LAUNCH)), {"object_modelling.launch", "demo.launch", "alignment_review.launch",
-                                                   "recognition.launch"})
+                                                   "recognition.launch", "recognition_demo.launch"})
 
     def test_recognition(self):
         config = load("recognition.launch", "camera:=kinect", "database_path:=/d", "rate_hz:=2")
@@ -38,6 +38,12 @@ class LaunchFilesTest(unittest.TestCase):
         config = load("recognition.launch", "rviz:=false", "adapter:=true")
         self.assertEqual({node.name for node in config.nodes}, {"recogniser", "recognition_adapter"})
         self.assertEqual(parameter(config, "recognition_adapter/cam_info_topic"), "")
+
+    def test_recognition_demo(self):
+        config = load("recognition_demo.launch", "scene:=/a scene", "database_path:=/d", "rviz:=false")
+        self.assertEqual({(node.namespace, node.name) for node in config.nodes},
+                         {("/object_modelling/", "recogniser"), ("/camera/", "play_scene")})
+        self.assertEqual(parameter(config, "recogniser/database_path"), "/d")
 
     def test_nodes(self):
         config = load("object_modelling.launch")
