@@ -39,28 +39,28 @@ std::vector<int> thinned(const std::vector<Eigen::Vector3f>& points, double spac
   return kept;
 }
 
-registration::SpaceView spaceOf(const rgbd::Keyframe& keyframe, const Eigen::Vector3f& center)
+registration::SpaceView spaceOf(const rgbd::View& view, const Eigen::Vector3f& center)
 {
-  registration::SpaceView view;
-  view.camera = keyframe.frame.camera;
-  view.T_camera_session = keyframe.T_session_camera.inverse().cast<float>();
-  cv::Mat known = keyframe.frame.depth_m.clone();
+  registration::SpaceView space;
+  space.camera = view.frame.camera;
+  space.T_camera_session = view.T_world_camera.inverse().cast<float>();
+  cv::Mat known = view.frame.depth_m.clone();
   known.setTo(0, known != known);  // NaN
-  cv::erode(known, view.least_depth_m, cv::Mat());
-  view.axial_sigma_m = keyframe.frame.noise_model.axialSigma_m((view.T_camera_session * center).z(), 0);
-  return view;
+  cv::erode(known, space.least_depth_m, cv::Mat());
+  space.axial_sigma_m = view.frame.noise_model.axialSigma_m((space.T_camera_session * center).z(), 0);
+  return space;
 }
 
-registration::ObjectFeatures featuresOf(const rgbd::Keyframe& keyframe, int max_features)
+registration::ObjectFeatures featuresOf(const rgbd::View& view, int max_features)
 {
-  const features::KeyframeFeatures found = features::detectFeatures(keyframe.frame, max_features, true);
+  const features::KeyframeFeatures found = features::detectFeatures(view.frame, max_features, true);
   registration::ObjectFeatures features;
   features.norm = found.norm;
   for (std::size_t i = 0; i < found.features.size(); ++i)
   {
     if (!found.features[i].p_camera.allFinite())
       continue;
-    features.points.emplace_back((keyframe.T_session_camera * found.features[i].p_camera).cast<float>());
+    features.points.emplace_back((view.T_world_camera * found.features[i].p_camera).cast<float>());
     features.descriptors.push_back(found.descriptors.row(static_cast<int>(i)));
   }
   return features;
@@ -70,8 +70,7 @@ registration::ObjectFeatures featuresOf(const rgbd::Keyframe& keyframe, int max_
 struct KnownViews
 {
   std::vector<rgbd::View> views;
-  std::vector<int> indices;  ///< of their keyframes
-  std::string doubt;         ///< why hardly any is known; then all are there
+  std::string doubt;  ///< why hardly any is known; then all are there
 };
 
 KnownViews knownViewsOf(const keyframes::Session& session, const std::vector<rgbd::Keyframe>& keyframes,
@@ -89,32 +88,45 @@ KnownViews knownViewsOf(const keyframes::Session& session, const std::vector<rgb
   if (path.doubtful)
     known.doubt = describe(path, ids, session.id);
   for (const std::size_t i : rgbd::knownViews(path, views.size()))
-  {
     known.views.push_back(views[i]);
-    known.indices.push_back(masked[i]);
-  }
   return known;
 }
 
 /// Views that look from as different directions as there are: each next one is farthest from those chosen.
-std::vector<int> spreadViews(const std::vector<rgbd::Keyframe>& keyframes, const std::vector<int>& masked,
-                             const Eigen::Vector3f& center, int count)
+std::vector<std::size_t> spreadViews(const std::vector<rgbd::View>& views, const Eigen::Vector3f& center, int count)
 {
   std::vector<Eigen::Vector3d> directions;
-  for (const int index : masked)
-    directions.push_back((keyframes[index].T_session_camera.translation() - center.cast<double>()).normalized());
-  std::vector<double> nearest(masked.size(), -2);  // cosine to the nearest chosen one
-  std::vector<int> chosen;
+  for (const rgbd::View& view : views)
+    directions.push_back((view.T_world_camera.translation() - center.cast<double>()).normalized());
+  std::vector<double> nearest(views.size(), -2);  // cosine to the nearest chosen one
+  std::vector<std::size_t> chosen;
   std::size_t next = 0;
-  while (static_cast<int>(chosen.size()) < std::min<int>(count, static_cast<int>(masked.size())))
+  while (chosen.size() < std::min(static_cast<std::size_t>(count), views.size()))
   {
-    chosen.push_back(masked[next]);
+    chosen.push_back(next);
     nearest[next] = 2;
-    for (std::size_t i = 0; i < masked.size(); ++i)
+    for (std::size_t i = 0; i < views.size(); ++i)
       nearest[i] = std::max(nearest[i], directions[i].dot(directions[next]));
-    next = std::min_element(nearest.begin(), nearest.end()) - nearest.begin();
+    next = static_cast<std::size_t>(std::min_element(nearest.begin(), nearest.end()) - nearest.begin());
   }
   return chosen;
+}
+
+/// Of a few views, what is looked up in them.
+void addViews(const std::vector<rgbd::View>& views, const PartialModelOptions& options,
+              registration::PartialModel* model)
+{
+  const Eigen::Vector3f center = model->center();
+  const std::vector<std::size_t> chosen = spreadViews(views, center, options.max_views);
+  model->views.resize(chosen.size());
+  model->features.resize(chosen.size());
+#pragma omp parallel for schedule(dynamic)
+  for (int i = 0; i < static_cast<int>(chosen.size()); ++i)
+  {
+    model->views[i] = spaceOf(views[chosen[i]], center);
+    if (options.use_color && options.max_features > 0)
+      model->features[i] = featuresOf(views[chosen[i]], options.max_features);
+  }
 }
 }  // namespace
 
@@ -145,45 +157,42 @@ registration::PartialModel makePartialModel(const keyframes::Session& session,
   fusion_options.resolution_m = options.spacing_m;
   base::JobControl silent;
   const KnownViews known = knownViewsOf(session, keyframes, masked);
-  masked = known.indices;
   const fusion::CloudFusionResult fused = fusion::fuse(known.views, fusion_options, silent);
   control.checkCancelled();
   if (!fused.status.ok())
     throw nothing(session.id, "cannot be aligned: " + fused.status.message);
-
-  registration::PartialModel model;
-  model.session_id = session.id;
+  registration::PartialModel model = partOf(session.id, fused.cloud, known.views, options);
   model.doubt = known.doubt;
   model.support_plane = session.support_plane_session;
+  return model;
+}
+
+registration::PartialModel partOf(const std::string& id, const fusion::FusedCloud& cloud,
+                                  const std::vector<rgbd::View>& views, const PartialModelOptions& options)
+{
+  base::checked(options);
+  registration::PartialModel model;
+  model.session_id = id;
   model.spacing_m =
       options.spacing_m *
-      std::sqrt(std::max(1.0, static_cast<double>(fused.cloud.size()) / static_cast<double>(options.max_points)));
-  const std::vector<int> kept = thinned(fused.cloud.points, model.spacing_m);
+      std::sqrt(std::max(1.0, static_cast<double>(cloud.size()) / static_cast<double>(options.max_points)));
+  const std::vector<int> kept = thinned(cloud.points, model.spacing_m);
   if (static_cast<int>(kept.size()) < MIN_POINTS)
-    throw nothing(session.id, "shows only " + std::to_string(kept.size()) + " points of the object, " +
-                                  std::to_string(model.spacing_m * 1000) + " mm apart (at least " +
-                                  std::to_string(MIN_POINTS) + " are needed): record it from nearer");
+    throw base::Error(base::StatusCode::FAILED_PRECONDITION,
+                      "'" + id + "' shows only " + std::to_string(kept.size()) + " points of the object, " +
+                          std::to_string(model.spacing_m * 1000) + " mm apart (at least " + std::to_string(MIN_POINTS) +
+                          " are needed): record it from nearer");
   for (const int index : kept)
   {
-    model.points.push_back(fused.cloud.points[index]);
-    model.normals.push_back(fused.cloud.normals[index]);
-    model.colors_rgb.push_back(fused.cloud.colors[index]);
+    model.points.push_back(cloud.points[index]);
+    model.normals.push_back(cloud.normals[index]);
+    model.colors_rgb.push_back(cloud.colors[index]);
   }
   if (options.use_color)
     model.colors = registration::invariantColors(model.points, model.normals, model.colors_rgb);
   else
     model.colors.assign(kept.size(), Eigen::Vector3f::Zero());
-  const Eigen::Vector3f center = model.center();
-  const std::vector<int> chosen = spreadViews(keyframes, masked, center, options.max_views);
-  model.views.resize(chosen.size());
-  model.features.resize(chosen.size());
-#pragma omp parallel for schedule(dynamic)
-  for (int i = 0; i < static_cast<int>(chosen.size()); ++i)
-  {
-    model.views[i] = spaceOf(keyframes[chosen[i]], center);
-    if (options.use_color && options.max_features > 0)
-      model.features[i] = featuresOf(keyframes[chosen[i]], options.max_features);
-  }
+  addViews(views, options, &model);
   return model;
 }
 

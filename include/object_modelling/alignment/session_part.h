@@ -4,9 +4,11 @@
 #include <vector>
 
 #include "object_modelling/base/job_control.h"
+#include "object_modelling/fusion/cloud_fusion.h"
 #include "object_modelling/keyframes/session.h"
 #include "object_modelling/registration/partial_model.h"
 #include "object_modelling/rgbd/keyframe.h"
+#include "object_modelling/rgbd/view.h"
 
 namespace object_modelling::alignment
 {
@@ -25,5 +27,11 @@ struct PartialModelOptions
 registration::PartialModel makePartialModel(const keyframes::Session& session,
                                             const std::vector<rgbd::Keyframe>& keyframes,
                                             const PartialModelOptions& options, base::JobControl& control);
+
+/// The same of a surface that is fused already, and of the views that show it: their world, the cloud's frame, is what
+/// PartialModel calls the session frame. The spacing grows from `spacing_m` where the cloud has more than `max_points`.
+/// Has no support plane. Throws base::Error (FAILED_PRECONDITION) that names `id` where there are too few points.
+registration::PartialModel partOf(const std::string& id, const fusion::FusedCloud& cloud,
+                                  const std::vector<rgbd::View>& views, const PartialModelOptions& options);
 
 }  // namespace object_modelling::alignment
