@@ -77,12 +77,15 @@ void addAlignCommand(CLI::App& app, Command* chosen)
   command->add_option("--session", arguments->session_ids, "Align these sessions instead of all of the object");
   command->add_flag("--grey", arguments->gray, "By the shape alone, without colour and features");
   command->add_option("--rotations", arguments->options.pair.rotations, "Rotations tried, evenly over all")
+      ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
   command->add_option("--min-overlap", arguments->options.pair.min_overlap_ratio, "Least share of surface in common")
+      ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command
       ->add_option("--same-pose-probability", arguments->options.pair.same_pose_probability,
                    "How often an object is recorded again without being turned over; 0.5: as often as not")
+      ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command->add_option("--seed", arguments->options.pair.seed, "Of the random samples")->capture_default_str();
   command->add_flag("--anew", arguments->anew, "Search every pair again, but for those that a person decided");

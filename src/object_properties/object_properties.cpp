@@ -57,6 +57,13 @@ std::string symmetryText(const ObjectProperties& properties, Symmetry::Of of)
               (symmetry.continuous() ? std::string("round") : std::to_string(symmetry.order) + "-fold");
   return text.empty() ? "none" : text;
 }
+
+/// The bottom by itself: where the mesh is open there, it is no share of the mesh's surface.
+std::string unseenText(const Unseen& unseen, bool closed)
+{
+  const std::string bottom = closed ? "; the bottom was not seen" : "; the bottom was not seen, and may be open";
+  return std::to_string(std::lround(100 * unseen.ratio)) + " % of the mesh unseen" + (unseen.bottom ? bottom : "");
+}
 }  // namespace
 
 std::vector<std::string> PropertyOptions::violations() const
@@ -130,8 +137,7 @@ std::string summaryText(const ObjectProperties& properties, std::size_t part_cou
   }
   text << " (" << seen << " recorded), " << part_count << " convex part(s)";
   if (properties.unseen)
-    text << ", " << 100 * properties.unseen->ratio << " % of the surface unseen"
-         << (properties.unseen->bottom ? ", its bottom too" : "");
+    text << ", " << unseenText(*properties.unseen, properties.mass.closed);
   return text.str();
 }
 

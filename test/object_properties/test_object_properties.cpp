@@ -50,6 +50,19 @@ TEST(ObjectProperties, ABottomThatNobodySaw)
   EXPECT_EQ(unseenOf(mesh, standing(0.03)).ratio, 0);
 }
 
+TEST(ObjectProperties, AnOpenBottomIsNoShareOfTheMesh)
+{
+  ObjectProperties properties;
+  properties.unseen = Unseen{ 0.002, true };
+  EXPECT_NE(summaryText(properties, 1).find("0 % of the mesh unseen; the bottom was not seen, and may be open"),
+            std::string::npos);
+  properties.mass.closed = true;
+  EXPECT_NE(summaryText(properties, 1).find("the bottom was not seen"), std::string::npos);
+  EXPECT_EQ(summaryText(properties, 1).find("open"), std::string::npos);
+  properties.unseen->bottom = false;
+  EXPECT_EQ(summaryText(properties, 1).find("bottom"), std::string::npos);
+}
+
 TEST(ObjectProperties, AMissingBottomIsNotSeenEither)
 {
   mesh::TriangleMesh mesh = box({ 0.2f, 0.1f, 0.06f }, 20);

@@ -56,7 +56,7 @@ class ObjectData:
     def __init__(self, folder):
         self.folder = folder
         self.object = _load(os.path.join(folder, "object.yaml"))
-        self.quality = _load(os.path.join(folder, "quality.yaml"))
+        self.quality = self._quality()
         try:
             self.keyframes = _keyframes(self.quality)
             self.id, self.name = str(self.object["id"]), str(self.object["name"])
@@ -67,6 +67,14 @@ class ObjectData:
         except (KeyError, TypeError, AttributeError) as error:
             raise ReportError("%s: quality.yaml or object.yaml lacks %s; build the object anew" % (folder, error)) \
                 from error
+
+    def _quality(self):
+        path = os.path.join(self.folder, "quality.yaml")
+        if not os.path.exists(path) and "imported_mesh" in (self.object.get("provenance") or {}):
+            raise ReportError("%s has no quality.yaml, which a report is made of: the object was imported from a mesh "
+                              "file, so no recording and no build is there to report on; 'object_modelling info' tells "
+                              "its size and properties" % self.folder)
+        return _load(path)
 
     def path(self, *names):
         return os.path.join(self.folder, *names)
@@ -99,8 +107,10 @@ def _properties(description):
             ("Resting poses", ", ".join(poses) or "none")]
     if "unseen" in description:
         unseen = description["unseen"]
-        rows.append(("Never seen", "%.0f %% of the surface%s" % (
-            100 * unseen["ratio"], ", and of it the bottom" if unseen["bottom"] else "")))
+        # Where the mesh is open at the bottom, that is no share of its surface.
+        bottom = "; the bottom was not seen%s" % ("" if mass["closed"] else ", and may be open")
+        rows.append(("Never seen", "%.0f %% of the mesh%s" % (
+            100 * unseen["ratio"], bottom if unseen["bottom"] else "")))
     return rows
 
 
