@@ -4,7 +4,7 @@ add_message_files(FILES
   Observation.msg Keyframe.msg EncodedKeyframe.msg KeyframePose.msg ObjectMask.msg PoseUpdate.msg StageMark.msg Session.msg SessionChange.msg StoreState.msg TrackingState.msg
   Progress.msg ObjectHypothesis.msg Hypotheses.msg SessionPlacement.msg AlignmentCandidate.msg AlignmentEdge.msg
   AlignmentRecord.msg IcpResidual.msg KeyframeResidual.msg
-  KeyframeLink.msg SessionRefinement.msg StageTime.msg ObjectSummary.msg BuiltObject.msg ManagerState.msg
+  KeyframeLink.msg SessionRefinement.msg StageTime.msg ObjectSummary.msg SimilarObject.msg BuiltObject.msg ManagerState.msg
   SessionLeftOut.msg Detection.msg Detections.msg KnownObjects.msg TriangleMesh.msg RestingPose.msg Symmetry.msg
   ObjectModel.msg)
 add_service_files(FILES

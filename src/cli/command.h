@@ -38,7 +38,8 @@ void addExportCommand(CLI::App& app, Command* chosen);
 void addCompareCommand(CLI::App& app, Command* chosen);
 void addRecogniseCommand(CLI::App& app, Command* chosen);
 void addImportMeshCommand(CLI::App& app, Command* chosen);
-void addDatabaseCommands(CLI::App& app, Command* chosen);  ///< check, migrate, rename, delete
+void addDatabaseCommands(CLI::App& app, Command* chosen);  ///< check, migrate, delete
+void addIdentityCommands(CLI::App& app, Command* chosen);  ///< rename, merge
 
 /// Options that track and model share.
 struct RecordArguments

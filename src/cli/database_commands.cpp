@@ -42,13 +42,6 @@ CommandOutput migrate(const std::string& path, base::JobControl& control)
   return output;
 }
 
-CommandOutput rename(const std::string& path, const std::string& object_id, const std::string& new_id)
-{
-  ObjectDatabase database(path, false);
-  database.rename(object_id, new_id);
-  return { object_id + " is now " + new_id + "\n", { { "object_id", new_id }, { "renamed_from", object_id } } };
-}
-
 CommandOutput remove(const std::string& path, const std::string& object_id)
 {
   ObjectDatabase database(path, false);
@@ -58,7 +51,7 @@ CommandOutput remove(const std::string& path, const std::string& object_id)
 
 struct DatabaseArguments
 {
-  std::string database, object_id, new_id;
+  std::string database, object_id;
 };
 
 CLI::App* addCommand(CLI::App& app, const std::string& name, const std::string& help,
@@ -81,16 +74,6 @@ void addDatabaseCommands(CLI::App& app, Command* chosen)
   command->footer("Adds properties of the meshes; all else stays. Example: object_modelling migrate ~/objects");
   command->callback([=]
                     { *chosen = [=](base::JobControl& control) { return migrate(arguments->database, control); }; });
-
-  command = addCommand(app, "rename", "Give an object of a database another id", arguments);
-  command->add_option("object_id", arguments->object_id, "The object's id")->required();
-  command->add_option("new_id", arguments->new_id, "The id it gets")->required();
-  command->footer("Sessions and exports keep the old name. Example: object_modelling rename ~/objects mug cup");
-  command->callback(
-      [=] {
-        *chosen = [=](base::JobControl&)
-        { return rename(arguments->database, arguments->object_id, arguments->new_id); };
-      });
 
   command = addCommand(app, "delete", "Take an object out of a database, with all its files", arguments);
   command->add_option("object_id", arguments->object_id, "The object's id")->required();

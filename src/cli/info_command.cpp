@@ -32,6 +32,8 @@ CommandOutput describeDatabase(const std::string& path)
                                        { "diameter_m", entry.diameter_m },
                                        { "sessions", sessions },
                                        { "partial", entry.partial },
+                                       { "frame_version", entry.frame_version },
+                                       { "aliases", entry.aliases },
                                        { "sessions_left_out", left_out },
                                        { "quality", entry.quality },
                                        { "mesh_path", entry.mesh_path },
@@ -41,6 +43,11 @@ CommandOutput describeDatabase(const std::string& path)
          << (entry.partial ? ", PARTIAL: " + std::to_string(left_out.size()) + " left out" : "") << "\n";
     if (entry.properties)
       text << "  " << object_properties::summaryText(*entry.properties, entry.collision_paths.size()) << "\n";
+    if (entry.frame_version > 1)
+      text << "  version " << entry.frame_version
+           << " of its frame: what was annotated in an older one does not hold\n";
+    for (const std::string& alias : entry.aliases)
+      text << "  also known as " << alias << "\n";
     for (const database::LeftOutSession& session : entry.sessions_left_out)
       text << "  without " << session.id << ": " << session.reason << "\n";
   }

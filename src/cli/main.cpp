@@ -112,6 +112,7 @@ int main(int argc, char** argv)
   cli::addRecogniseCommand(app, &command);
   cli::addImportMeshCommand(app, &command);
   cli::addDatabaseCommands(app, &command);
+  cli::addIdentityCommands(app, &command);
   try
   {
     app.parse(argc, argv);

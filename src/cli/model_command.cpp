@@ -247,8 +247,10 @@ void addModelCommand(CLI::App& app, Command* chosen)
   command->add_flag("--watertight", arguments->watertight, "Close the mesh; what no camera saw is marked");
   command->add_option("--max-triangles", arguments->max_triangles,
                       "Budget of triangles of the mesh; without it the resolution decides");
-  command->add_flag("--replace", arguments->replace,
-                    "Replace an object of this name that was built from other sessions; its frame changes");
+  command->add_flag(
+      "--replace", arguments->replace,
+      "Replace an object of this name that was built from other sessions, even where its frame cannot be kept: "
+      "where it is not certain how the new model lies to the old one, a new frame begins");
   addRecordOptions(*command, &arguments->record);
   command
       ->add_option("--same-pose-probability", arguments->same_pose_probability,

@@ -18,6 +18,17 @@ std::ostringstream fixedText(int digits)
   out << std::fixed << std::setprecision(digits);
   return out;
 }
+
+/// Of an object that was there before.
+std::string frameText(const pipeline::BuildReport& report)
+{
+  if (report.frame.by != "alignment")
+    return {};
+  std::ostringstream out = fixedText(2);
+  out << "          its frame is kept: aligned with the stored model (probability " << report.frame.probability
+      << ")\n";
+  return out.str();
+}
 }  // namespace
 
 nlohmann::json toJson(const base::Status& status)
@@ -86,12 +97,23 @@ nlohmann::json stageSeconds(const std::vector<pipeline::StageTime>& stages)
 
 nlohmann::json toJson(const pipeline::BuildReport& report)
 {
+  nlohmann::json looks_like = nlohmann::json::array();
+  for (const report::SimilarObject& similar : report.looks_like)
+    looks_like.push_back({ { "object_id", similar.object_id }, { "probability", similar.probability } });
   return {
-    { "status", toJson(report.status) },     { "object_folder", report.object_folder },
-    { "preview_path", report.preview_path }, { "size_m", { report.size_m.x(), report.size_m.y(), report.size_m.z() } },
-    { "diameter_m", report.diameter_m },     { "point_count", report.point_count },
-    { "vertex_count", report.vertex_count }, { "triangle_count", report.triangle_count },
-    { "properties", report.properties },     { "stage_s", stageSeconds(report.stages) }
+    { "status", toJson(report.status) },
+    { "object_folder", report.object_folder },
+    { "preview_path", report.preview_path },
+    { "size_m", { report.size_m.x(), report.size_m.y(), report.size_m.z() } },
+    { "diameter_m", report.diameter_m },
+    { "point_count", report.point_count },
+    { "vertex_count", report.vertex_count },
+    { "triangle_count", report.triangle_count },
+    { "properties", report.properties },
+    { "stage_s", stageSeconds(report.stages) },
+    { "looks_like", looks_like },
+    { "frame",
+      { { "version", report.frame_version }, { "by", report.frame.by }, { "probability", report.frame.probability } } }
   };
 }
 
@@ -126,7 +148,7 @@ std::string toText(const pipeline::BuildReport& report)
       << 1000 * report.size_m.z() << " mm, diameter " << 1000 * report.diameter_m << " mm; " << report.point_count
       << " points, " << report.triangle_count << " triangles\n"
       << "          " << report.properties << "\n"
-      << "          " << report.object_folder << "\n"
+      << frameText(report) << "          " << report.object_folder << "\n"
       << "          " << report.preview_path << "\n";
   if (!report.status.message.empty())
     out << "WARNING   " << report.status.message << "\n";

@@ -205,7 +205,7 @@ void ObjectDatabase::remove(const std::string& object_id)
          });
 }
 
-void ObjectDatabase::rename(const std::string& object_id, const std::string& new_id)
+void ObjectDatabase::rename(const std::string& object_id, const std::string& new_id, const ReportMaker& make_report)
 {
   checkObjectId(object_id);
   checkObjectId(new_id);
@@ -221,10 +221,41 @@ void ObjectDatabase::rename(const std::string& object_id, const std::string& new
              throw Error(StatusCode::INVALID_ARGUMENT, "there is an object '" + new_id + "' already");
            const std::string folder = makeTemporaryFolder(root_, new_id);
            const std::string text = copyRenamed(root_ + "/" + object_id, folder, object_id, new_id);
+           if (make_report)
+           {
+             make_report(folder);
+             sealReport(folder);
+           }
            syncFolder(folder);
            // In this order: a crash between leaves both.
            commitObject(root_, new_id, { hashOfText(text), listed->second.partial });
            commitRemoval(root_, object_id);
+         });
+}
+
+void ObjectDatabase::absorb(const std::string& object_id, const std::string& absorbed_id,
+                            const std::string& absorbed_hash)
+{
+  checkObjectId(object_id);
+  checkObjectId(absorbed_id);
+  const base::JobControl control;
+  change(root_, absorbed_id, control,
+         [&]
+         {
+           const Manifest manifest = readManifest(manifestPath(root_));
+           for (const std::string& id : { object_id, absorbed_id })
+             if (manifest.objects.count(id) == 0)
+               throw notFound(root_, id);
+           if (manifest.objects.at(absorbed_id).content_hash != absorbed_hash)
+             throw Error(StatusCode::FAILED_PRECONDITION,
+                         "it has been changed meanwhile, and '" + object_id + "' was not made of that; try again");
+           const std::string folder = makeTemporaryFolder(root_, object_id);
+           const std::string text = copyWithAliases(root_ + "/" + object_id, folder,
+                                                    aliasesWith(root_ + "/" + object_id, root_ + "/" + absorbed_id));
+           syncFolder(folder);
+           // In this order: a crash between leaves both.
+           commitObject(root_, object_id, { hashOfText(text), manifest.objects.at(object_id).partial });
+           commitRemoval(root_, absorbed_id);
          });
 }
 

@@ -1,5 +1,6 @@
 #include "object_revision.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -83,6 +84,34 @@ std::string copyRenamed(const std::string& folder, const std::string& copy, cons
   replaceLine("id", quoted(new_id), path, &text);
   if (!named)
     replaceLine("name", quoted(new_id), path, &text);
+  base::writeTextFile(path, text);
+  return text;
+}
+
+std::vector<std::string> aliasesWith(const std::string& folder, const std::string& absorbed_folder)
+{
+  const ObjectEntry entry = readObject(folder).entry, absorbed = readObject(absorbed_folder).entry;
+  std::vector<std::string> aliases = entry.aliases;
+  aliases.push_back(absorbed.id);
+  aliases.insert(aliases.end(), absorbed.aliases.begin(), absorbed.aliases.end());
+  std::vector<std::string> once;
+  for (const std::string& alias : aliases)
+    if (alias != entry.id && std::find(once.begin(), once.end(), alias) == once.end())
+      once.push_back(alias);
+  return once;
+}
+
+std::string copyWithAliases(const std::string& folder, const std::string& copy, const std::vector<std::string>& aliases)
+{
+  fs::copy(folder, copy, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  const std::string path = copy + "/object.yaml";
+  std::string text = base::readTextFile(path);
+  std::string list;
+  for (const std::string& alias : aliases)
+    list += (list.empty() ? "" : ", ") + quoted(alias);
+  if (text.find("\naliases:") == std::string::npos)  // files of before lack it
+    text.insert(placeOf("unit", text, path), "aliases: []\n");
+  replaceLine("aliases", "[" + list + "]", path, &text);
   base::writeTextFile(path, text);
   return text;
 }

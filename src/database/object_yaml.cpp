@@ -1,5 +1,7 @@
 #include "object_yaml.h"
 
+#include <algorithm>
+
 #include "content_hash.h"
 #include "object_modelling/base/atomic_file.h"
 #include "object_modelling/base/status.h"
@@ -65,11 +67,29 @@ void emitMap(YAML::Emitter& out, const char* key, const std::map<std::string, Va
   out << YAML::EndMap;
 }
 
+/// The times in which the sessions' views were taken.
+void readStamps(const YAML::Node& views, std::vector<ModelSession>* sessions)
+{
+  for (const YAML::Node& view : views)
+    for (ModelSession& session : *sessions)
+      if (view["session"] && view["session"].as<std::string>() == session.id)
+      {
+        const auto stamp_s = view["stamp_s"].as<double>();
+        const bool first = session.last_stamp_s < session.first_stamp_s;
+        session.first_stamp_s = first ? stamp_s : std::min(session.first_stamp_s, stamp_s);
+        session.last_stamp_s = first ? stamp_s : std::max(session.last_stamp_s, stamp_s);
+      }
+}
+
 ObjectEntry entryFrom(const YAML::Node& node)
 {
   ObjectEntry entry;
   entry.id = node["id"].as<std::string>();
   entry.name = node["name"].as<std::string>();
+  for (const YAML::Node& alias : node["aliases"])  // files of before lack it, and frame_version
+    entry.aliases.push_back(alias.as<std::string>());
+  if (node["frame_version"])
+    entry.frame_version = node["frame_version"].as<int>();
   for (int i = 0; i < 3; ++i)
     entry.size_m[i] = node["size_m"][i].as<double>();
   entry.box_model = { transformFromYaml(node["model_from_box"]), entry.size_m };
@@ -79,6 +99,7 @@ ObjectEntry entryFrom(const YAML::Node& node)
   for (const YAML::Node& session : node["sessions"])
     entry.sessions.push_back({ session["id"].as<std::string>(), transformFromYaml(session["model_from_session"]),
                                session["keyframe_count"].as<int>() });
+  readStamps(node["views"], &entry.sessions);
   if (node["partial"])  // files of before lack it, and sessions_left_out
     entry.partial = node["partial"].as<bool>();
   for (const YAML::Node& session : node["sessions_left_out"])
@@ -98,6 +119,11 @@ std::string objectYaml(const ObjectModel& model, const std::map<std::string, std
   out << YAML::Key << "schema_version" << YAML::Value << SCHEMA_VERSION;
   out << YAML::Key << "id" << YAML::Value << YAML::DoubleQuoted << model.id;
   out << YAML::Key << "name" << YAML::Value << YAML::DoubleQuoted << (model.name.empty() ? model.id : model.name);
+  out << YAML::Key << "aliases" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+  for (const std::string& alias : model.aliases)
+    out << YAML::DoubleQuoted << alias;
+  out << YAML::EndSeq;
+  out << YAML::Key << "frame_version" << YAML::Value << model.frame_version;
   out << YAML::Key << "unit" << YAML::Value << UNIT;
   out << YAML::Key << "handedness" << YAML::Value << HANDEDNESS;
   out << YAML::Key << "size_m" << YAML::Value;

@@ -75,6 +75,18 @@ cv::Mat readMask(const std::string& path, const geometry::PinholeCamera& camera)
   return mask;
 }
 
+/// Place of a view's session among those of the object; 0 where the file does not tell.
+int sessionIndexOf(const YAML::Node& view, const YAML::Node& object)
+{
+  if (!view["session"])
+    return 0;
+  const auto id = view["session"].as<std::string>();
+  for (std::size_t i = 0; i < object["sessions"].size(); ++i)
+    if (object["sessions"][i]["id"].as<std::string>() == id)
+      return static_cast<int>(i);
+  return 0;
+}
+
 rgbd::View readView(const std::string& folder, const YAML::Node& description)
 {
   std::array<char, 32> number{};
@@ -97,19 +109,24 @@ rgbd::View readView(const std::string& folder, const YAML::Node& description)
 std::vector<rgbd::View> readViews(const std::string& object_folder, std::size_t max_views)
 {
   const std::string path = object_folder + "/object.yaml";
-  YAML::Node views;
+  YAML::Node object;
   try
   {
-    views = YAML::LoadFile(path)["views"];
+    object = YAML::LoadFile(path);
   }
   catch (const YAML::Exception& error)
   {
     damaged(path, error.what());
   }
+  const YAML::Node views = object["views"];
   const std::size_t count = views.size(), wanted = max_views == 0 ? count : std::min(max_views, count);
   std::vector<rgbd::View> result;
   for (std::size_t i = 0; i < wanted; ++i)
-    result.push_back(readView(object_folder, views[i * count / wanted]));
+  {
+    const YAML::Node& view = views[i * count / wanted];
+    result.push_back(readView(object_folder, view));
+    result.back().session_index = sessionIndexOf(view, object);
+  }
   return result;
 }
 

@@ -181,12 +181,17 @@ ImportReport importMesh(const std::string& path, const std::string& object_id, c
 {
   database::checkObjectId(object_id);
   const std::vector<database::ObjectEntry> there = database.list();
-  const bool exists = std::any_of(there.begin(), there.end(),
-                                  [&](const database::ObjectEntry& entry) { return entry.id == object_id; });
-  if (exists && !options.replace)
+  const auto existing = std::find_if(there.begin(), there.end(),
+                                     [&](const database::ObjectEntry& entry) { return entry.id == object_id; });
+  if (existing != there.end() && !options.replace)
     throw Error(StatusCode::INVALID_ARGUMENT, "object '" + object_id + "' is in " + database.root() +
                                                   " already: choose another id, or import with replace");
-  const database::ObjectModel model = modelFromMesh(path, object_id, name, options, control);
+  database::ObjectModel model = modelFromMesh(path, object_id, name, options, control);
+  if (existing != there.end())
+  {
+    model.aliases = existing->aliases;
+    model.frame_version = existing->frame_version + 1;  // the file's pose has nothing to do with it
+  }
   ImportReport report;
   report.object_folder = database.write(model, control);
   report.unit_m = std::stod(model.provenance.at("imported_unit_m"));

@@ -1,5 +1,7 @@
 #include "model_description.h"
 
+#include <algorithm>
+
 #include "object_modelling/geometry/plane.h"
 #include "object_modelling/geometry/transform.h"
 #include "object_modelling/mesh/mesh_renderer.h"
@@ -9,6 +11,27 @@ namespace object_modelling::pipeline
 {
 namespace
 {
+/// Whether a view of the session was taken while the known one was recorded.
+bool ofItsTime(const database::ModelSession& known, const std::vector<rgbd::View>& views, int session_index)
+{
+  return known.last_stamp_s < known.first_stamp_s || std::any_of(views.begin(), views.end(),
+                                                                 [&](const rgbd::View& view)
+                                                                 {
+                                                                   return view.session_index == session_index &&
+                                                                          view.frame.stamp_s >= known.first_stamp_s &&
+                                                                          view.frame.stamp_s <= known.last_stamp_s;
+                                                                 });
+}
+}  // namespace
+
+std::vector<std::string> idsOf(const std::vector<alignment::SessionPlacement>& placements)
+{
+  std::vector<std::string> ids;
+  for (const alignment::SessionPlacement& placement : placements)
+    ids.push_back(placement.session_id);
+  return ids;
+}
+
 std::optional<database::ObjectEntry> existingEntry(const database::ObjectDatabase& database, const std::string& id)
 {
   for (database::ObjectEntry& entry : database.list())
@@ -16,26 +39,16 @@ std::optional<database::ObjectEntry> existingEntry(const database::ObjectDatabas
       return std::move(entry);
   return std::nullopt;
 }
-}  // namespace
 
-base::Result<std::optional<Eigen::Isometry3d>> inheritedFrame(
-    const database::ObjectDatabase& database, const std::string& object_id,
-    const std::vector<alignment::SessionPlacement>& placements, bool replace)
+std::optional<Eigen::Isometry3d> sharedFrame(const database::ObjectEntry& existing,
+                                             const std::vector<alignment::SessionPlacement>& placements,
+                                             const std::vector<rgbd::View>& views)
 {
-  const std::optional<database::ObjectEntry> existing = existingEntry(database, object_id);
-  if (!existing)
-    return {};
-  for (const database::ModelSession& known : existing->sessions)
-    for (const alignment::SessionPlacement& placement : placements)
-      if (known.id == placement.session_id)
-        return { {}, known.T_model_session * placement.T_reference_session.inverse() };
-  if (replace)
-    return {};
-  return { { base::StatusCode::FAILED_PRECONDITION,
-             "object '" + object_id +
-                 "' exists and was built from other sessions, so its frame (and grasps annotated in it) would change: "
-                 "choose another object id, or build with replace" },
-           {} };
+  for (const database::ModelSession& known : existing.sessions)
+    for (std::size_t i = 0; i < placements.size(); ++i)
+      if (known.id == placements[i].session_id && ofItsTime(known, views, static_cast<int>(i)))
+        return known.T_model_session * placements[i].T_reference_session.inverse();
+  return std::nullopt;
 }
 
 void describe(const Views& views, const std::vector<alignment::SessionPlacement>& placements,

@@ -9,11 +9,16 @@
 
 namespace object_modelling::pipeline
 {
+std::vector<std::string> idsOf(const std::vector<alignment::SessionPlacement>& placements);
+
+/// The object of this id, if there is one that can be read.
+std::optional<database::ObjectEntry> existingEntry(const database::ObjectDatabase& database, const std::string& id);
+
 /// T_model_reference of the object as it stands in the database, through a session that both builds share; none where
-/// the object is new, or where `replace` allows another frame. FAILED_PRECONDITION where its frame would change.
-base::Result<std::optional<Eigen::Isometry3d>> inheritedFrame(
-    const database::ObjectDatabase& database, const std::string& object_id,
-    const std::vector<alignment::SessionPlacement>& placements, bool replace);
+/// there is no such session. A session of the same id whose views are of another time is another recording.
+std::optional<Eigen::Isometry3d> sharedFrame(const database::ObjectEntry& existing,
+                                             const std::vector<alignment::SessionPlacement>& placements,
+                                             const std::vector<rgbd::View>& views);
 
 /// Box, resting poses and sessions of a model.
 void describe(const Views& views, const std::vector<alignment::SessionPlacement>& placements,

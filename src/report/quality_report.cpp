@@ -146,11 +146,34 @@ void emitVersions(YAML::Emitter& out)
           std::to_string(EIGEN_MINOR_VERSION));
   out << YAML::EndMap;
 }
+
+void emitIdentity(YAML::Emitter& out, const ModelIdentity& identity, int frame_version)
+{
+  begin(out, "frame");
+  put(out, "version", frame_version);
+  put(out, "by", identity.frame.by);
+  put(out, "probability", identity.frame.probability);
+  out << YAML::EndMap;
+  out << YAML::Key << "looks_like" << YAML::Value << YAML::BeginSeq;
+  for (const SimilarObject& similar : identity.looks_like)
+  {
+    out << YAML::Flow << YAML::BeginMap;
+    out << YAML::Key << "id" << YAML::Value << YAML::DoubleQuoted << similar.object_id;
+    put(out, "probability", similar.probability);
+    out << YAML::EndMap;
+  }
+  out << YAML::EndSeq;
+  out << YAML::Key << "warnings" << YAML::Value << YAML::BeginSeq;
+  for (const std::string& warning : identity.warnings)
+    if (!warning.empty())
+      out << YAML::DoubleQuoted << warning;
+  out << YAML::EndSeq;
+}
 }  // namespace
 
 std::string qualityYaml(const database::ObjectModel& model, const std::vector<keyframes::Session>& sessions,
                         const std::vector<ViewOrigin>& origins, const ModelOptions& options,
-                        const std::vector<StageTime>& stages)
+                        const ModelIdentity& identity, const std::vector<StageTime>& stages)
 {
   YAML::Emitter out;
   out.SetDoublePrecision(9);
@@ -168,6 +191,7 @@ std::string qualityYaml(const database::ObjectModel& model, const std::vector<ke
   if (inconsistent != model.quality.end())
     put(out, inconsistent->first, inconsistent->second);
   out << YAML::EndMap;
+  emitIdentity(out, identity, model.frame_version);
   emitSigma(out, model.cloud.sigmas_m);
   emitCoverage(out, coverageOf(model.mesh, model.views));
   emitSessions(out, sessions);

@@ -27,10 +27,10 @@ class UsageTest(unittest.TestCase):
     def test_help_names_every_command(self):
         text = run("--help").stdout
         for word in ("track", "model", "align", "calibrate_noise", "calibrate_camera", "info", "compare", "report", "export",
-                     "recognise", "import_mesh", "check", "migrate", "rename", "delete", "Exit codes"):
+                     "recognise", "import_mesh", "check", "migrate", "rename", "merge", "delete", "Exit codes"):
             self.assertIn(word, text)
         for command in ("track", "model", "align", "calibrate_noise", "calibrate_camera", "info", "compare", "report", "export",
-                        "recognise", "import_mesh", "check", "migrate", "rename", "delete"):
+                        "recognise", "import_mesh", "check", "migrate", "rename", "merge", "delete"):
             finished = run(command, "--help")
             self.assertEqual(finished.returncode, 0)
             self.assertGreater(len(finished.stdout.splitlines()), 5)
@@ -41,6 +41,11 @@ class UsageTest(unittest.TestCase):
         self.assert_refused(run("track"), "recording", code=2)
         self.assert_refused(run("track", CEREAL_BOX, "--reference", "moon"), "reference", code=2)
         self.assert_refused(run("model", "box", CEREAL_BOX), "database", code=2)
+
+        align = ("align", "box", "--store", self.path("no.sqlite"))
+        self.assert_refused(run(*align, "--same-pose-probability", "2"), "same-pose-probability", code=2)
+        self.assert_refused(run(*align, "--min-overlap", "-0.1"), "min-overlap", code=2)
+        self.assert_refused(run(*align, "--rotations", "-1"), "rotations", code=2)
 
     def test_exports_that_cannot_be(self):
         database = self.path("objects")

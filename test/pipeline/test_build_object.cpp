@@ -10,8 +10,6 @@
 
 namespace object_modelling::pipeline
 {
-using base::StatusCode;
-
 namespace
 {
 double largestError(const Eigen::Vector3d& size_m, const Eigen::Vector3d& truth_m)
@@ -70,8 +68,8 @@ TEST_F(BuildObject, WritesTheObjectInItsOwnFrame)
   EXPECT_GT(report.triangle_count, report.vertex_count);
   EXPECT_TRUE(std::filesystem::exists(report.preview_path)) << report.preview_path;
   EXPECT_EQ(report.object_folder, database_.root() + "/carton");
-  EXPECT_EQ(stagesOf(report),
-            (std::vector<std::string>{ "load", "fuse", "surface", "texture", "properties", "describe", "write" }));
+  EXPECT_EQ(stagesOf(report), (std::vector<std::string>{ "load", "fuse", "surface", "texture", "compare", "properties",
+                                                         "describe", "write" }));
   for (const std::string name : { "textured.obj", "textured.mtl", "textured.png", "textured.glb" })
     EXPECT_TRUE(std::filesystem::exists(report.object_folder + "/mesh/" + name)) << name;
 
@@ -175,28 +173,6 @@ TEST_F(BuildObject, LeavesToOthersWhatItDoesNotMake)
   EXPECT_TRUE(session.T_model_session);
   EXPECT_EQ(session.refined.by, "both");
   EXPECT_EQ(session.support_plane_session->offset_m, 0.123);
-}
-
-TEST_F(BuildObject, ChangesTheFrameOfAnObjectOnlyOnRequest)
-{
-  ASSERT_TRUE(build({ "box" }).status.ok());
-  const std::string first = contentHash();
-  storeRenderedSession(*store_, "other", 8);
-  const std::string before = fingerprint(*store_, "other");
-  const BuildReport refused = build({ "other" });
-  EXPECT_EQ(refused.status.code, StatusCode::FAILED_PRECONDITION);
-  EXPECT_NE(refused.status.message.find("'carton' exists"), std::string::npos) << refused.status.message;
-  EXPECT_EQ(contentHash(), first);
-  EXPECT_EQ(fingerprint(*store_, "other"), before);
-
-  BuildOptions replacing = coarse();
-  replacing.replace = true;
-  ASSERT_TRUE(build({ "other" }, replacing).status.ok());
-  const database::ObjectEntry entry = database_.entry("carton");
-  ASSERT_EQ(entry.sessions.size(), 1u);
-  EXPECT_EQ(entry.sessions[0].id, "other");
-  EXPECT_TRANSFORM_NEAR(entry.box_model.T_frame_box, Eigen::Isometry3d::Identity(), 1e-6, 1e-6);
-  EXPECT_EQ(store_->session("other").object_id, "carton");
 }
 
 }  // namespace object_modelling::pipeline

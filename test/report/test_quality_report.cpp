@@ -64,7 +64,7 @@ TEST(QualityReportTest, HoldsTheResidualsOfEverySession)
   sessions[0].refinement_report = refinementReportYaml(adjusted());
   sessions[0].reference_is_object = true;
   sessions[2].refinement_report = "[broken";  // does not cost the model
-  const YAML::Node quality = YAML::Load(qualityYaml({}, sessions, {}, {}, { { "fuse", 1.5 } }));
+  const YAML::Node quality = YAML::Load(qualityYaml({}, sessions, {}, {}, {}, { { "fuse", 1.5 } }));
   ASSERT_EQ(quality["sessions"].size(), 3u);
   EXPECT_EQ(quality["sessions"][0]["id"].as<std::string>(), "up");
   EXPECT_EQ(quality["sessions"][0]["tracked_against"].as<std::string>(), "object");

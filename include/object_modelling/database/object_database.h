@@ -14,7 +14,9 @@ namespace object_modelling::database
 struct ObjectEntry
 {
   std::string id, name;
-  std::string content_hash;  ///< SHA-256 of object.yaml, which holds that of every other file
+  std::string content_hash;          ///< SHA-256 of object.yaml, which holds that of every other file
+  std::vector<std::string> aliases;  ///< ids of objects that were found to be this one
+  int frame_version = 1;             ///< counts the changes of the object frame
   std::vector<ModelSession> sessions;
   bool partial = false;                              ///< made without some of the object's sessions ...
   std::vector<LeftOutSession> sessions_left_out;     ///< ... which are these
@@ -60,7 +62,12 @@ public:
   void remakeReport(const std::string& object_id, base::JobControl& control, const ReportMaker& make_report);
   void remove(const std::string& object_id);
   /// The same object by another id, with its files as they are; NOT_FOUND, or INVALID_ARGUMENT if the new id is taken.
-  void rename(const std::string& object_id, const std::string& new_id);
+  /// `make_report` is run on the finished folder before it is put in place.
+  void rename(const std::string& object_id, const std::string& new_id, const ReportMaker& make_report = {});
+  /// Takes an object away that is the same as another one, which gets its id and aliases as aliases.
+  /// FAILED_PRECONDITION if the content hash of the one to go is not the given one: somebody else has changed it. A
+  /// crash between leaves both.
+  void absorb(const std::string& object_id, const std::string& absorbed_id, const std::string& absorbed_hash);
   /// Brings an object of an older schema to the present one: properties of its mesh are added, all else stays, in one
   /// atomic step. False if it is up to date.
   bool migrate(const std::string& object_id, base::JobControl& control);

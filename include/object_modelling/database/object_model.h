@@ -19,6 +19,8 @@ struct ModelSession
   std::string id;
   Eigen::Isometry3d T_model_session = Eigen::Isometry3d::Identity();  ///< the model frame is the object frame
   int keyframe_count = 0;
+  /// Of its views, in what was read from a database; the last is before the first where that is not known.
+  double first_stamp_s = 0, last_stamp_s = -1;
 };
 
 /// A session of the object that its model does without, since it could not be placed beside the others.
@@ -33,7 +35,10 @@ struct LeftOutSession
 struct ObjectModel
 {
   std::string id;
-  std::string name;  ///< for people; the id where none was given
+  std::string name;                  ///< for people; the id where none was given
+  std::vector<std::string> aliases;  ///< ids of objects that were found to be this one
+  /// Counts the changes of the object frame: what was annotated in another version does not hold.
+  int frame_version = 1;
   std::vector<ModelSession> sessions;
   std::vector<LeftOutSession> sessions_left_out;  ///< the model is partial where there are any
   geometry::OrientedBox box_model;

@@ -33,9 +33,33 @@ struct ModelOptions
   texture::TextureOptions texture;
 };
 
+/// How the object frame of a model was found.
+struct FrameOrigin
+{
+  /// "first": the object is new; "session": by a session that the stored model has, too; "alignment": of the new model
+  /// with the stored one; "new": that was not certain, and the frame is another one.
+  std::string by = "first";
+  double probability = 1;  ///< of the alignment
+};
+
+/// An object of the database that a new one looks like.
+struct SimilarObject
+{
+  std::string object_id;
+  double probability = 0;  ///< that both are the same object
+};
+
+/// What a model is against those that were there.
+struct ModelIdentity
+{
+  FrameOrigin frame;
+  std::vector<SimilarObject> looks_like;  ///< most probable first
+  std::vector<std::string> warnings;      ///< of the build, for people
+};
+
 /// Text of quality.yaml (docs/report.md) of a model that is complete but for it. `origins`: one per view.
 std::string qualityYaml(const database::ObjectModel& model, const std::vector<keyframes::Session>& sessions,
                         const std::vector<ViewOrigin>& origins, const ModelOptions& options,
-                        const std::vector<StageTime>& stages);
+                        const ModelIdentity& identity, const std::vector<StageTime>& stages);
 
 }  // namespace object_modelling::report

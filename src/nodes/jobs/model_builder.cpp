@@ -23,6 +23,8 @@ object_modelling::ObjectSummary toMessage(const database::ObjectEntry& entry)
   message.content_hash = entry.content_hash;
   message.mesh_path = entry.mesh_path;
   message.partial = entry.partial;
+  message.frame_version = static_cast<std::uint32_t>(entry.frame_version);
+  message.aliases = entry.aliases;
   for (const database::LeftOutSession& session : entry.sessions_left_out)
     message.left_out.push_back(leftOutMessage(session));
   return message;
@@ -39,6 +41,15 @@ object_modelling::BuiltObject toMessage(const pipeline::BuildReport& report, con
   message.point_count = report.point_count;
   message.vertex_count = report.vertex_count;
   message.triangle_count = report.triangle_count;
+  message.frame_version = static_cast<std::uint32_t>(report.frame_version);
+  message.frame_by = report.frame.by;
+  message.frame_probability = report.frame.probability;
+  for (const report::SimilarObject& similar : report.looks_like)
+  {
+    message.looks_like.emplace_back();
+    message.looks_like.back().object_id = similar.object_id;
+    message.looks_like.back().probability = similar.probability;
+  }
   for (const pipeline::StageTime& time : report.stages)
   {
     message.stages.emplace_back();
