@@ -46,7 +46,17 @@ class DatabaseCommandsTest(unittest.TestCase):
         self.assertIn("check", text)
         self.assert_refused(run("import_mesh", self.mesh, self.database, "--id", "box"), "'box'", "replace")
 
-        self.assertEqual(run("rename", self.database, "box", "carton").returncode, 0)
+        self.assert_refused(run("report", "box", "--database", self.database), "quality.yaml", "imported from a mesh")
+        again = run_json("import_mesh", self.mesh, self.database, "--id", "box", "--replace")
+        self.assertEqual(again["object_id"], "box")
+        self.assertEqual(run_json("info", self.database)["objects"][0]["frame_version"], 2)
+
+        os.makedirs(self.path("objects", "exports", "stl", "box"))
+        renamed = run("rename", self.database, "box", "carton")
+        self.assertEqual(renamed.returncode, 0, renamed.stderr)
+        self.assertIn("--format stl", renamed.stderr)
+        self.assertIn("--store", renamed.stdout)
+        self.assert_refused(run("rename", self.database, "carton", "box", "--store", self.path("none.db")), "none.db")
         self.assertEqual(run_json("check", self.database)["problems"], [])
         self.assert_refused(run("rename", self.database, "box", "else"), "'box'")
         self.assertEqual([found["id"] for found in run_json("info", self.database)["objects"]], ["carton"])

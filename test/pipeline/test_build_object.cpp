@@ -68,8 +68,8 @@ TEST_F(BuildObject, WritesTheObjectInItsOwnFrame)
   EXPECT_GT(report.triangle_count, report.vertex_count);
   EXPECT_TRUE(std::filesystem::exists(report.preview_path)) << report.preview_path;
   EXPECT_EQ(report.object_folder, database_.root() + "/carton");
-  EXPECT_EQ(stagesOf(report), (std::vector<std::string>{ "load", "fuse", "surface", "texture", "compare", "properties",
-                                                         "describe", "write" }));
+  EXPECT_EQ(stagesOf(report),
+            (std::vector<std::string>{ "load", "fuse", "surface", "texture", "properties", "describe", "write" }));
   for (const std::string name : { "textured.obj", "textured.mtl", "textured.png", "textured.glb" })
     EXPECT_TRUE(std::filesystem::exists(report.object_folder + "/mesh/" + name)) << name;
 
