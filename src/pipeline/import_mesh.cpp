@@ -58,8 +58,18 @@ void makeEven(const ImportOptions& options, mesh::TexturedMesh* textured)
   *textured = mesh::subdivided(std::move(*textured), MAX_EDGE_RATIO * diagonal_m, options.max_triangles);
 }
 
+/// Row by row.
+std::string formatted(const Eigen::Matrix4d& matrix)
+{
+  static const Eigen::IOFormat ROWS(9, Eigen::DontAlignCols, ", ", ", ", "", "", "[", "]");
+  std::ostringstream text;
+  text << matrix.format(ROWS);
+  return text.str();
+}
+
 /// Brings the mesh into the object frame: z up as it lies most probably, the origin at the centre of its box.
-void placeInFrame(const ImportOptions& options, mesh::TriangleMesh* mesh, database::ObjectModel* model)
+/// Returns T_model_mesh.
+Eigen::Isometry3d placeInFrame(const ImportOptions& options, mesh::TriangleMesh* mesh, database::ObjectModel* model)
 {
   const object_properties::MassProperties mass = object_properties::massProperties(*mesh, options.properties.mass);
   const std::vector<object_properties::RestingPose> poses =
@@ -68,13 +78,15 @@ void placeInFrame(const ImportOptions& options, mesh::TriangleMesh* mesh, databa
     throw Error(StatusCode::BAD_INPUT, "the mesh is flat: an object needs a volume");
   const Eigen::Vector3d up = poses.front().T_support_model.linear().row(2).transpose();
   geometry::OrientedBox box = geometry::boxAlong(up, mesh->vertices);
-  mesh::transform(box.T_frame_box.inverse(), mesh);
+  const Eigen::Isometry3d T_model_mesh = box.T_frame_box.inverse();
+  mesh::transform(T_model_mesh, mesh);
   box.T_frame_box = Eigen::Isometry3d::Identity();
   model->box_model = box;
   Eigen::Isometry3d T_support_model = Eigen::Isometry3d::Identity();
   T_support_model.translation().z() = box.size_m.z() / 2;
   model->T_support_model = { T_support_model };
   model->diameter_m = diameter_m(mesh->vertices);
+  return T_model_mesh;
 }
 
 Eigen::Matrix<std::uint8_t, 3, 1> colorAt(const mesh::TexturedMesh& textured, const mesh::SurfaceSample& sample)
@@ -153,7 +165,7 @@ database::ObjectModel modelFromMesh(const std::string& path, const std::string& 
   database::ObjectModel model;
   model.id = object_id;
   model.name = name.empty() ? object_id : name;
-  placeInFrame(options, &textured.mesh, &model);
+  const Eigen::Isometry3d T_model_mesh = placeInFrame(options, &textured.mesh, &model);
   makeEven(options, &textured);
   if (textured.mesh.colors.empty())
     textured.mesh.colors.assign(textured.mesh.vertices.size(), { 180, 180, 180 });
@@ -172,6 +184,7 @@ database::ObjectModel modelFromMesh(const std::string& path, const std::string& 
   model.provenance = { { "software", "object_modelling " OBJECT_MODELLING_VERSION },
                        { "imported_mesh", std::filesystem::path(path).filename().string() },
                        { "imported_unit_m", formatted(unit_m) },
+                       { "model_from_imported_mesh", formatted(T_model_mesh.matrix()) },
                        { "views", "rendered" } };
   return model;
 }

@@ -1,5 +1,6 @@
 #include "object_modelling/recognition/object_knowledge.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <opencv2/imgproc.hpp>
@@ -88,6 +89,12 @@ std::shared_ptr<const ObjectKnowledge> learnObject(const database::ObjectDatabas
   const fusion::FusedCloud cloud = database::readCloud(folder + "/cloud.pcd");
   object->surface = surfaceOf(cloud, options.surface_points);
   object->texture = surfaceOf(cloud, options.texture_points);
+  object->colored = std::any_of(cloud.colors.begin(), cloud.colors.end(),
+                                [&](const auto& color) { return color != cloud.colors.front(); });
+  if (entry.properties)
+    object->symmetries =
+        SymmetryGroup(entry.properties->symmetries, object->colored ? object_properties::Symmetry::Of::TEXTURE
+                                                                    : object_properties::Symmetry::Of::SHAPE);
   object->pairs = PairTable({ cloud.points, cloud.normals }, object->diameter_m, options.pairs);
   object->mesh = fewTriangles(mesh::readMesh(entry.mesh_path), options);
   learnFeatures(database::readViews(folder, options.max_views), options, control, object.get());

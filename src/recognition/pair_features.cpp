@@ -12,8 +12,10 @@ namespace
 constexpr float SPLIT_COSINE = 0.866F;  // 30 deg
 constexpr float PEAK_RATIO = 0.9F;
 constexpr int MAX_PEAKS = 3;
-constexpr float SPREAD_MARGIN = 0.3F;  // of a bin: nearer to its rim than this, the neighbour is looked up too
-constexpr float PARALLEL_COSINE = 0.985F, COPLANAR_WEIGHT = 0.3F;
+constexpr float SPREAD_MARGIN = 0.3F;    // of a bin: nearer to its rim than this, the neighbour is looked up too
+constexpr std::size_t MOST_PAIRS = 300;  // of a reference point: more change its peaks little
+constexpr float PARALLEL_COSINE = 0.985F, COPLANAR_WEIGHT = 1.2F;
+constexpr std::size_t COPLANAR_STEP = 4;
 
 struct Feature
 {
@@ -53,6 +55,16 @@ float turnOf(const Eigen::Isometry3f& T_reference, const Eigen::Vector3f& q)
 {
   const Eigen::Vector3f p = T_reference * q;
   return std::atan2(p.z(), p.y());
+}
+
+/// Indices of the other points that are nearer than `radius_m`.
+std::vector<std::uint32_t> pointsNear(const OrientedPoints& scene, std::size_t reference, float radius_m)
+{
+  std::vector<std::uint32_t> near;
+  for (std::size_t j = 0; j < scene.size(); ++j)
+    if (j != reference && (scene.points[j] - scene.points[reference]).squaredNorm() < radius_m * radius_m)
+      near.push_back(static_cast<std::uint32_t>(j));
+  return near;
 }
 
 /// The bin of a value in units of bins, and the nearer neighbour where it is close to the rim; -1: none.
@@ -158,13 +170,17 @@ void PairTable::vote(const OrientedPoints& scene, std::size_t reference, std::ve
   const Eigen::Isometry3f T_reference_scene = toReference(p, n);
   const auto per_turn = static_cast<float>(turn_bins_ / (2 * M_PI));
   const auto angles = static_cast<float>(angle_bins_ / M_PI);
-  for (std::size_t j = 0; j < scene.size(); ++j)
+  const std::vector<std::uint32_t> near = pointsNear(scene, reference, static_cast<float>(diameter_m_));
+  const std::size_t step = near.size() / MOST_PAIRS + 1;
+  for (std::size_t i = 0; i < near.size(); i += step)
   {
-    if (j == reference || !((scene.points[j] - p).squaredNorm() < diameter_m_ * diameter_m_))
-      continue;
+    const std::size_t j = near[i];
     const Feature f = featureOf(p, n, scene.points[j], scene.normals[j]);
     const bool coplanar =
         n.dot(scene.normals[j]) > PARALLEL_COSINE && std::abs(f.a_rad - static_cast<float>(M_PI_2)) < 0.15F;
+    // Pairs within a plane are many, and each is as any other: a few stand for all.
+    if (coplanar && (i / step) % COPLANAR_STEP != 0)
+      continue;
     const float weight = coplanar ? COPLANAR_WEIGHT : 1;
     const float turn_scene = turnOf(T_reference_scene, scene.points[j]);
     const Bins bins[] = { Bins(f.distance_m / static_cast<float>(spacing_m_), distance_bins_),

@@ -27,11 +27,11 @@ struct SurfacePair
 };
 
 std::vector<SurfacePair> pairsOf(const Scene& scene, const OrientedPoints& surface,
-                                 const Eigen::Isometry3d& T_camera_model, double gate_m)
+                                 const Eigen::Isometry3d& T_camera_model, double gate_m, std::size_t step = 1)
 {
   const Eigen::Isometry3f T = T_camera_model.cast<float>();
   std::vector<SurfacePair> pairs;
-  for (std::size_t i = 0; i < surface.size(); ++i)
+  for (std::size_t i = 0; i < surface.size(); i += step)
   {
     const Eigen::Vector3f p = T * surface.points[i], n = T.linear() * surface.normals[i];
     if (!(-n.dot(p.normalized()) > FACING_COSINE))
@@ -139,7 +139,7 @@ double step(const geometry::NormalEquations& equations, const ObjectKnowledge& o
 }  // namespace
 
 RefinedPose refine(const Scene& scene, const ObjectKnowledge& object, const Eigen::Isometry3d& T_camera_model_start,
-                   double start_gate_m, int iterations)
+                   double start_gate_m, int iterations, std::size_t step_points)
 {
   RefinedPose result;
   result.T_camera_model = T_camera_model_start;
@@ -147,7 +147,8 @@ RefinedPose refine(const Scene& scene, const ObjectKnowledge& object, const Eige
   for (int iteration = 0; iteration < iterations; ++iteration)
   {
     const Eigen::Vector3d center = result.T_camera_model * object.center_model.cast<double>();
-    const std::vector<SurfacePair> pairs = pairsOf(scene, object.surface.oriented, result.T_camera_model, gate_m);
+    const std::vector<SurfacePair> pairs =
+        pairsOf(scene, object.surface.oriented, result.T_camera_model, gate_m, step_points);
     const geometry::NormalEquations equations = surfaceEquations(scene, pairs, center, &result);
     if (result.pairs < MIN_PAIRS)
       break;

@@ -17,7 +17,7 @@ struct RefinedPose
 
 /// Projective point-to-plane ICP of the object's surface on the depth image, coarse to fine.
 RefinedPose refine(const Scene& scene, const ObjectKnowledge& object, const Eigen::Isometry3d& T_camera_model_start,
-                   double start_gate_m, int iterations);
+                   double start_gate_m, int iterations, std::size_t step_points = 1);
 
 /// The same, and the object's lightness on the image's: texture holds what shape leaves free. From a pose that is off
 /// by a few pixels at most.

@@ -49,6 +49,8 @@ std::vector<Detection> chosen(const Scene& scene, const KnownObjects& objects, c
       taken[static_cast<std::size_t>(pixel)] = 1;
     detections.push_back(detectionOf(candidate, *objects[static_cast<std::size_t>(candidate.hypothesis.object)]));
   }
+  std::stable_sort(detections.begin(), detections.end(),
+                   [](const Detection& a, const Detection& b) { return a.confidence_ratio > b.confidence_ratio; });
   return detections;
 }
 }  // namespace
@@ -62,7 +64,9 @@ std::vector<std::string> RecogniserOptions::violations() const
   check.atLeast("max_features", max_features, 10);
   check.atLeast("reference_points", reference_points, 1);
   check.atLeast("max_scene_points", max_scene_points, 10);
+  check.atLeast("objects_per_cluster", objects_per_cluster, 1);
   check.atLeast("hypotheses_per_cluster", hypotheses_per_cluster, 1);
+  check.atLeast("time_budget_s", time_budget_s, 0.0);
   return check.violations();
 }
 
@@ -71,6 +75,14 @@ struct Recogniser::Data
   KnownObjects objects;
   RecogniserOptions options;
   TextureIndex texture;
+
+  Scene sceneOf(const rgbd::Frame& frame) const
+  {
+    double largest_m = 0;
+    for (const auto& object : objects)
+      largest_m = std::max(largest_m, object->diameter_m);
+    return makeScene(frame, largest_m, options.max_distance_m);
+  }
 };
 
 Recogniser::Recogniser(std::vector<std::shared_ptr<const ObjectKnowledge>> objects, const RecogniserOptions& options)
@@ -80,22 +92,37 @@ Recogniser::Recogniser(std::vector<std::shared_ptr<const ObjectKnowledge>> objec
 
 Recogniser::~Recogniser() = default;
 
-std::vector<Detection> Recogniser::recognise(const rgbd::Frame& frame) const
+std::vector<Candidate> Recogniser::search(const Scene& scene) const
 {
   const RecogniserOptions& options = data_->options;
   const KnownObjects& objects = data_->objects;
-  const Scene scene = makeScene(frame);
-  std::vector<PoseHypothesis> hypotheses;
+  const Deadline deadline(options.time_budget_s);
+  std::vector<Candidate> candidates;
   if (options.use_texture)
-    hypotheses =
-        data_->texture.poses(scene, features::detectFeatures(frame, options.max_features, false), options.seed);
+    candidates = judged(
+        scene, objects,
+        data_->texture.poses(scene, features::detectFeatures(scene.frame, options.max_features, false), options.seed),
+        Deadline(0));
   if (options.use_shape)
-    for (const PoseHypothesis& hypothesis : posesByShape(scene, objects, options))
-      hypotheses.push_back(hypothesis);
-  std::vector<Candidate> candidates = distinct(objects, judged(scene, objects, hypotheses));
-  for (Candidate& candidate : turned(scene, objects, candidates))
+    for (Candidate& candidate : judged(scene, objects, posesByShape(scene, objects, options, deadline), deadline))
+      candidates.push_back(std::move(candidate));
+  candidates = distinct(objects, std::move(candidates));
+  for (Candidate& candidate : turned(scene, objects, candidates, deadline))
     candidates.push_back(std::move(candidate));
-  return chosen(scene, objects, options, distinct(objects, std::move(candidates)));
+  candidates = distinct(objects, std::move(candidates));
+  setConfidences(objects, &candidates);
+  return candidates;
+}
+
+std::vector<Candidate> Recogniser::candidates(const rgbd::Frame& frame) const
+{
+  return search(data_->sceneOf(frame));
+}
+
+std::vector<Detection> Recogniser::recognise(const rgbd::Frame& frame) const
+{
+  const Scene scene = data_->sceneOf(frame);
+  return chosen(scene, data_->objects, data_->options, search(scene));
 }
 
 }  // namespace object_modelling::recognition

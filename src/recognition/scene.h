@@ -17,7 +17,7 @@ struct Scene
   cv::Mat normals;                            ///< CV_32FC3, optical frame, NaN where unknown
   cv::Mat lab;                                ///< CV_32FC3
   cv::Mat lightness, gradient_x, gradient_y;  ///< CV_32FC1: L smoothed, and its change per pixel
-  cv::Mat segments;                           ///< CV_32SC1: smooth cluster above a support plane, from 0; -1: none
+  cv::Mat segments;                           ///< CV_32SC1: smooth cluster that is no background, from 0; -1: none
   int segment_count = 0;
 
   Eigen::Vector3f normal(int u, int v) const
@@ -27,7 +27,8 @@ struct Scene
   }
 };
 
-Scene makeScene(const rgbd::Frame& frame);
+/// Background: planes that are larger than the largest object, and what is further than `max_distance_m`.
+Scene makeScene(const rgbd::Frame& frame, double largest_object_m, double max_distance_m);
 
 /// Points with normals of a segment; every `step_px`-th pixel.
 OrientedPoints pointsOf(const Scene& scene, int segment, int step_px);

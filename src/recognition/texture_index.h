@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "hypothesis.h"
 #include "object_modelling/features/keyframe_features.h"
+#include "object_modelling/recognition/candidate.h"
 #include "object_modelling/recognition/object_knowledge.h"
 #include "scene.h"
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
+
 #include "lab_color.h"
 #include "object_modelling/base/statistics.h"
 #include "object_modelling/geometry/projection.h"
@@ -17,7 +19,10 @@ constexpr double SURFACE_ERROR_M = 0.004;  // of model, pose and distortion
 constexpr double EXPLAINED_SIGMAS = 3;
 constexpr float NORMAL_COSINE = 0.77F;  // 40 deg
 constexpr int OUTLINE_PX = 3;           // beyond the outline
+constexpr double MIN_COLOR_STEP = 12;   // in L*a*b*, of an edge
+constexpr float BEND_COSINE = 0.82F;    // 35 deg
 constexpr double MIN_STEP_M = 0.012;    // by which the scene goes back beyond an outline
+constexpr float NEUTRAL_DISTANCE = 15;  // in L*a*b*: of an object whose colours are not known
 constexpr int MIN_COLORED_PX = 25;
 constexpr int MIN_DRAWN_PX = 20;
 
@@ -119,6 +124,22 @@ void compareColors(const std::vector<ColorPair>& pairs, Verification* result)
     square_seen += (pair.seen - seen).squaredNorm();
   }
   result->color_distance = static_cast<float>(base::median(&distances));
+  result->contrast = static_cast<float>(std::sqrt(square_drawn / static_cast<double>(pairs.size())));
+  result->chroma_drawn = drawn.tail<2>().norm();
+  result->chroma_seen = seen.tail<2>().norm();
+  result->hue_cosine =
+      drawn.tail<2>().dot(seen.tail<2>()) / std::max(1e-3F, result->chroma_drawn * result->chroma_seen);
+  Eigen::Array3d xx(1e-6, 1e-6, 1e-6), xy(0, 0, 0);
+  for (const ColorPair& pair : pairs)
+  {
+    xx += (pair.drawn - drawn).cast<double>().array().square();
+    xy += ((pair.drawn - drawn).cast<double>().array() * (pair.seen - seen).cast<double>().array());
+  }
+  const Eigen::Array3f gain = (xy / xx).cast<float>().max(0.3F).min(2.F);
+  std::vector<double> fitted;
+  for (const ColorPair& pair : pairs)
+    fitted.push_back((pair.seen - seen - (gain * (pair.drawn - drawn).array()).matrix()).norm());
+  result->fitted_distance = static_cast<float>(base::median(&fitted));
   // Plain things correlate by noise alone: what varies by less than 4 counts as not correlated.
   const double floor = 16.0 * static_cast<double>(pairs.size());
   result->color_correlation =
@@ -159,8 +180,18 @@ public:
     result.unmeasured = share(unmeasured_, drawn_px_);
     result.normals_agree = share(agreeing_, with_normal_);
     result.contour = share(behind_, outline_);
+    result.edges = share(edges_, outline_);
     result.pixels = std::move(pixels_);
-    compareColors(colors_, &result);
+    if (with_normal_ > 0)
+      result.flatness =
+          Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f>(normals_ / static_cast<float>(with_normal_)).eigenvalues()[2];
+    if (object_.colored)
+      compareColors(colors_, &result);
+    else
+    {
+      result.color_distance = NEUTRAL_DISTANCE;
+      result.hue_cosine = 1;
+    }
     return result;
   }
 
@@ -207,8 +238,27 @@ private:
     const Eigen::Vector3f& p = object_.mesh.vertices[corners[0]];
     const Eigen::Vector3f m = (object_.mesh.vertices[corners[1]] - p).cross(object_.mesh.vertices[corners[2]] - p);
     ++with_normal_;
+    normals_ += m.normalized() * m.normalized().transpose();
     if ((R_camera_model_ * m.normalized()).dot(n) > NORMAL_COSINE)
       ++agreeing_;
+  }
+
+  /// The surface bends, or the colour changes, from inside the outline to beyond it.
+  bool changesAt(int x, int y, int dx, int dy) const
+  {
+    const auto pixel = [&](int steps)
+    {
+      return cv::Point((x + crop_.left + steps * dx) * VERIFICATION_STEP_PX,
+                       (y + crop_.top + steps * dy) * VERIFICATION_STEP_PX);
+    };
+    const cv::Point inside = pixel(-1), beyond = pixel(OUTLINE_PX);
+    if (!cv::Rect(0, 0, scene_.lab.cols, scene_.lab.rows).contains(inside))
+      return false;
+    const cv::Vec3f change = scene_.lab.at<cv::Vec3f>(beyond) - scene_.lab.at<cv::Vec3f>(inside);
+    if (cv::norm(change) > MIN_COLOR_STEP)
+      return true;
+    const Eigen::Vector3f n = scene_.normal(inside.x, inside.y), m = scene_.normal(beyond.x, beyond.y);
+    return n.allFinite() && m.allFinite() && n.dot(m) < BEND_COSINE;
   }
 
   /// To the four sides.
@@ -225,8 +275,11 @@ private:
       if (!std::isfinite(beyond_m) || beyond_m < z_m - tolerance_m)
         continue;  // not measured, or hidden by something else
       ++outline_;
-      if (beyond_m > z_m + MIN_STEP_M)
+      const bool steps = beyond_m > z_m + MIN_STEP_M;
+      if (steps)
         ++behind_;
+      if (steps || changesAt(x, y, dx[side], dy[side]))
+        ++edges_;
     }
   }
 
@@ -237,10 +290,30 @@ private:
   mesh::MeshView drawn_;
   cv::Mat lab_;
   int drawn_px_ = 0, explained_ = 0, occluded_ = 0, violated_ = 0, unmeasured_ = 0;
-  int agreeing_ = 0, with_normal_ = 0, outline_ = 0, behind_ = 0;
+  int agreeing_ = 0, with_normal_ = 0, outline_ = 0, behind_ = 0, edges_ = 0;
+  Eigen::Matrix3f normals_ = Eigen::Matrix3f::Zero();
   std::vector<int> pixels_;
   std::vector<ColorPair> colors_;
 };
+}  // namespace
+
+namespace
+{
+constexpr float TEXTURED = 15;     // contrast in L*a*b* of what counts as textured
+constexpr int MOST_FEATURES = 30;  // more say no more
+
+/// Logarithm of a share's odds, bounded.
+float logOdds(float share)
+{
+  constexpr float LEAST = 0.02F;
+  const float bounded = std::clamp(share, 0.F, 1.F);
+  return std::log((bounded + LEAST) / (1 - bounded + LEAST));
+}
+
+// By test/benchmark/fit_confidence.py (docs/measurements.md, Recognition); in the order of evidenceOf().
+constexpr float OFFSET = -24.1379F;
+constexpr Evidence WEIGHTS = { 0.4113F,  0.9134F,  -0.0908F, 21.2881F, -3.7406F, 9.7019F,  -4.9862F,
+                               -2.7217F, -0.9828F, 1.872F,   1.3603F,  2.4565F,  -4.1325F, -1.3228F };
 }  // namespace
 
 Verification verify(const Scene& scene, const ObjectKnowledge& object, const Eigen::Isometry3d& T_camera_model)
@@ -249,23 +322,47 @@ Verification verify(const Scene& scene, const ObjectKnowledge& object, const Eig
   return crop.empty ? Verification() : PixelCounts(scene, object, T_camera_model, crop).result();
 }
 
-float confidenceOf(const Verification& v, const PoseHypothesis& hypothesis)
+Evidence evidenceOf(const Verification& v, const PoseHypothesis& hypothesis)
 {
   const float visible = v.visible();
-  if (v.drawn_px < MIN_DRAWN_PX || !(visible > 0))
-    return 0;
-  // Fitted on 14 000 hypotheses for eight objects (docs/recognition.md), except for the matched features.
-  constexpr float FEATURES = 0.3F;
-  constexpr int MOST_FEATURES = 20;
-  float score = -20.13F;
-  score += 1.12F * v.explained / visible;
-  score += 10.8F * v.normals_agree;
-  score += 1.96F * v.contour;
-  score += 8.87F * v.color_correlation;
-  score -= 0.062F * v.color_distance;
-  score += 0.52F * std::log10(std::max(1.F, visible * static_cast<float>(v.drawn_px)));
-  score -= 0.68F * std::min(visible, 0.5F);
-  score += FEATURES * static_cast<float>(std::min(hypothesis.matched_features, MOST_FEATURES));
+  const float texture = std::min(1.F, v.contrast / TEXTURED);
+  const float agreement = v.color_correlation * texture;
+  const float hue = std::min(2.F, (1 - v.hue_cosine) * std::min(v.chroma_drawn, v.chroma_seen) / 20);
+  return { logOdds(v.explained / std::max(visible, 1e-6F)),
+           logOdds(v.normals_agree),
+           v.contour,
+           std::max(v.edges, 0.6F),
+           agreement,
+           std::max(0.F, agreement - 0.4F),
+           texture,
+           hue,
+           std::min(v.color_distance, 25.F) / 10,
+           std::log10(std::max(1.F, visible * static_cast<float>(v.drawn_px))),
+           v.occluded,
+           std::log1p(static_cast<float>(std::min(hypothesis.matched_features, MOST_FEATURES))),
+           v.flatness * (1 - std::clamp(2 * agreement, 0.F, 1.F)),
+           v.unmeasured };
+}
+
+float scoreOf(const Verification& verification, const PoseHypothesis& hypothesis)
+{
+  if (verification.drawn_px < MIN_DRAWN_PX || !(verification.visible() > 0))
+    return LEAST_SCORE;
+  const Evidence evidence = evidenceOf(verification, hypothesis);
+  float score = OFFSET;
+  for (std::size_t i = 0; i < evidence.size(); ++i)
+    score += WEIGHTS[i] * evidence[i];
+  return std::max(score, LEAST_SCORE);
+}
+
+float confidenceOf(const Candidate& candidate, float rival_score)
+{
+  constexpr float MOST_LEAD = 5;
+  const Verification& v = candidate.verification;
+  const float explained = v.explained / std::max(v.visible(), 1e-6F);
+  const float agreement = v.color_correlation * std::min(1.F, v.contrast / TEXTURED);
+  const float lead = std::min(candidate.score - rival_score, MOST_LEAD);
+  const float score = -21.71F + 1.125F * candidate.score + 0.507F * lead + 22.35F * explained + 4.451F * agreement;
   return 1 / (1 + std::exp(-score));
 }
 

@@ -6,7 +6,7 @@
 #include "low_holes.h"
 #include "object_modelling/base/options.h"
 #include "object_volume.h"
-#include "smooth_clustering.h"
+#include "object_modelling/segmentation/smooth_clustering.h"
 #include "support_around.h"
 
 namespace object_modelling::segmentation

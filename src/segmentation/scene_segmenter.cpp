@@ -7,7 +7,7 @@
 #include "noise_table.h"
 #include "object_modelling/base/options.h"
 #include "plane_growing.h"
-#include "smooth_clustering.h"
+#include "object_modelling/segmentation/smooth_clustering.h"
 #include "support_choice.h"
 #include "support_extent.h"
 

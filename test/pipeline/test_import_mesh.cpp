@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include <opencv2/core.hpp>
 
 #include "object_modelling/database/cloud_file.h"
@@ -97,6 +99,15 @@ TEST(ImportMesh, ViewsShowTheObject)
   }
   EXPECT_EQ(model.name, "part");
   EXPECT_EQ(model.provenance.at("imported_mesh"), "part.ply");
+  std::istringstream numbers(model.provenance.at("model_from_imported_mesh").substr(1));
+  Eigen::Matrix4d T_model_mesh;
+  char comma;
+  for (int i = 0; i < 16; ++i)
+    numbers >> T_model_mesh(i / 4, i % 4) >> comma;
+  mesh::TriangleMesh file = mesh::readMesh(folder.path("part.ply"));
+  mesh::transform(Eigen::Isometry3d(T_model_mesh), &file);
+  for (const Eigen::Vector3f& vertex : file.vertices)
+    EXPECT_LT((vertex.cwiseAbs() - Eigen::Vector3f(0.1F, 0.05F, 0.03F)).cwiseAbs().maxCoeff(), 1e-5F);
 }
 
 TEST(ImportMesh, TheUnitIsFoundWhereItIsClear)

@@ -1,4 +1,4 @@
-#include "smooth_clustering.h"
+#include "object_modelling/segmentation/smooth_clustering.h"
 
 #include <cmath>
 #include <limits>

@@ -10,6 +10,7 @@
 #include "object_modelling/database/object_database.h"
 #include "object_modelling/mesh/triangle_mesh.h"
 #include "object_modelling/recognition/pair_features.h"
+#include "object_modelling/recognition/symmetry_group.h"
 
 namespace object_modelling::recognition
 {
@@ -42,7 +43,9 @@ struct ObjectKnowledge
   Eigen::Vector3f center_model = Eigen::Vector3f::Zero();  ///< of the box
   mesh::TriangleMesh mesh;                                 ///< few triangles, with vertex colours
   ColoredSurface surface;
-  ColoredSurface texture;  ///< more points of the same
+  ColoredSurface texture;    ///< more points of the same
+  bool colored = true;       ///< false: one colour all over, as an imported mesh without colours; says nothing then
+  SymmetryGroup symmetries;  ///< of shape with texture
   PairTable pairs;
   std::vector<Eigen::Vector3f> feature_points;  ///< where the features are
   cv::Mat descriptors;                          ///< one row per feature; empty for an object without texture
