@@ -12,6 +12,10 @@ function(_object_modelling_compile_options target)
   if(OBJECT_MODELLING_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
+  if(OBJECT_MODELLING_SANITIZE)
+    # GCC warns of optional values without reason once the code is instrumented.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+  endif()
 endfunction()
 
 # object_modelling_add_library(<library> SOURCES a.cpp ... PUBLIC base opencv ... PRIVATE ceres ...)

@@ -37,6 +37,8 @@ void read(Reader& reader, RecogniserNodeOptions* options)
   reader.read("recogniser/use_shape", recogniser.use_shape);
   reader.read("recogniser/reference_points", recogniser.reference_points);
   reader.read("recogniser/max_scene_points", recogniser.max_scene_points);
+  reader.read("recogniser/objects_per_cluster", recogniser.objects_per_cluster);
+  reader.read("recogniser/time_budget_s", recogniser.time_budget_s);
   reader.read("recogniser/hypotheses_per_cluster", recogniser.hypotheses_per_cluster);
   reader.read("recogniser/seed", recogniser.seed);
 }
