@@ -1,9 +1,11 @@
 // Looks for the objects of a database in scenes of BOP, and writes detections and all verified poses.
 // benchmark_recognition --help; docs/measurements.md, Recognition.
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
+#include <map>
 #include <random>
 #include <sstream>
 
@@ -131,8 +133,8 @@ void work(const Arguments& arguments)
     {
       if (arguments.light_seed > 0)
       {
-        std::mt19937 random(arguments.light_seed * 1000003 + static_cast<unsigned>(scene * 1009 + images[i]));
-        changeLight(random, &raw->color_bgr);
+        std::mt19937 random(arguments.light_seed * 1000003U + static_cast<unsigned>(scene * 1009 + images[i]));
+        changeLight(random, &raw->color);
       }
       const rgbd::Frame frame = builder.build(*raw).value;
       const Clock::time_point start = Clock::now();
