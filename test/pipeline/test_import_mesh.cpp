@@ -106,8 +106,11 @@ TEST(ImportMesh, ViewsShowTheObject)
     numbers >> T_model_mesh(i / 4, i % 4) >> comma;
   mesh::TriangleMesh file = mesh::readMesh(folder.path("part.ply"));
   mesh::transform(Eigen::Isometry3d(T_model_mesh), &file);
+  Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& vertex : file.vertices)
-    EXPECT_LT((vertex.cwiseAbs() - Eigen::Vector3f(0.1F, 0.05F, 0.03F)).cwiseAbs().maxCoeff(), 1e-5F);
+    box.extend(vertex);
+  EXPECT_LT((box.max() - Eigen::Vector3f(0.1F, 0.05F, 0.03F)).cwiseAbs().maxCoeff(), 1e-4F) << box.max().transpose();
+  EXPECT_LT((box.min() + Eigen::Vector3f(0.1F, 0.05F, 0.03F)).cwiseAbs().maxCoeff(), 1e-4F) << box.min().transpose();
 }
 
 TEST(ImportMesh, TheUnitIsFoundWhereItIsClear)

@@ -12,7 +12,7 @@ namespace object_modelling::recognition
 {
 struct RecogniserOptions
 {
-  double min_confidence_ratio = 0.5;  ///< detections below are not given
+  double min_confidence_ratio = 0.7;  ///< detections below are not given
   double max_distance_m = 2.5;        ///< of objects from the camera
   double min_visible_ratio = 0.25;    ///< of the object's outline; what shows less is not given
   int max_features = 1500;            ///< of the image
