@@ -1,5 +1,7 @@
 """The node recognition_adapter: what the recogniser finds, in messages of packages that are there."""
+import signal
 import threading
+import time
 
 import actionlib
 import rospy
@@ -103,7 +105,11 @@ OFFERS = {"topic ~recognized_objects": RecognizedObjectsTopic, "topic ~detection
 
 
 def main():
-    rospy.init_node("recognition_adapter")
+    # Stopped from the loop below: within rospy's own handler a signal that comes while it logs would wait for ever.
+    asked_to_stop = []
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: asked_to_stop.append(True))
+    rospy.init_node("recognition_adapter", disable_signals=True)
     try:
         values = parameters.read("recognition_adapter", PARAMETERS, rospy.get_param("~", {}))
     except Failure as failure:
@@ -118,5 +124,7 @@ def main():
             rospy.logwarn("%s is not offered: %s", name, failure.message)
     if not offered:
         rospy.logwarn("nothing is offered: no package of other messages is found; it is looked for at the start only")
-    rospy.spin()
+    while not asked_to_stop and not rospy.is_shutdown():
+        time.sleep(0.1)
+    rospy.signal_shutdown("asked to stop")
     return 0
