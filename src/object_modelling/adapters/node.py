@@ -1,5 +1,4 @@
 """The node recognition_adapter: what the recogniser finds, in messages of packages that are there."""
-import signal
 import threading
 import time
 
@@ -7,7 +6,7 @@ import actionlib
 import rospy
 from sensor_msgs.msg import CameraInfo
 
-from object_modelling import msg, parameters, srv
+from object_modelling import msg, parameters, process, srv
 from object_modelling.adapters.detections_3d import Detections3D
 from object_modelling.adapters.grasping_pipeline import GraspingPipeline
 from object_modelling.adapters.recognized_objects import RecognizedObjects
@@ -82,9 +81,9 @@ class GraspingPipelineAction:
         if topic not in self._subscribers:
             self._subscribers[topic] = rospy.Subscriber(topic, CameraInfo,
                                                         lambda info: self._newest.update({topic: info}), queue_size=1)
-        end = rospy.get_time() + INFO_TIMEOUT_S
-        while topic not in self._newest and rospy.get_time() < end and not rospy.is_shutdown():
-            rospy.sleep(0.05)
+        end = time.monotonic() + INFO_TIMEOUT_S  # not by ROS time: a paused simulation has none
+        while topic not in self._newest and time.monotonic() < end and not process.asked_to_stop():
+            time.sleep(0.05)
         if topic not in self._newest:
             raise Failure(Code.FAILED_PRECONDITION, "no camera_info on %s within %g s: set ~cam_info_topic" % (
                 rospy.resolve_name(topic), INFO_TIMEOUT_S))
@@ -105,11 +104,7 @@ OFFERS = {"topic ~recognized_objects": RecognizedObjectsTopic, "topic ~detection
 
 
 def main():
-    # Stopped from the loop below: within rospy's own handler a signal that comes while it logs would wait for ever.
-    asked_to_stop = []
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: asked_to_stop.append(True))
-    rospy.init_node("recognition_adapter", disable_signals=True)
+    process.begin("recognition_adapter")
     try:
         values = parameters.read("recognition_adapter", PARAMETERS, rospy.get_param("~", {}))
     except Failure as failure:
@@ -124,7 +119,5 @@ def main():
             rospy.logwarn("%s is not offered: %s", name, failure.message)
     if not offered:
         rospy.logwarn("nothing is offered: no package of other messages is found; it is looked for at the start only")
-    while not asked_to_stop and not rospy.is_shutdown():
-        time.sleep(0.1)
-    rospy.signal_shutdown("asked to stop")
+    process.spin()
     return 0

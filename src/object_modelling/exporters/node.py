@@ -4,7 +4,7 @@ import threading
 
 import rospy
 
-from object_modelling import msg, parameters, srv
+from object_modelling import msg, parameters, process, srv
 from object_modelling.exporters import command
 from object_modelling.outcome import Code, Failure
 
@@ -48,7 +48,7 @@ class Exporter:
 
 
 def main():
-    rospy.init_node("exporter")
+    process.begin("exporter")
     try:
         values = parameters.read("exporter", PARAMETERS, rospy.get_param("~", {}))
     except Failure as failure:
@@ -56,6 +56,6 @@ def main():
         return 1
     exporter = Exporter(values["database_path"])
     rospy.loginfo("exporter: %s", values)
-    rospy.spin()
+    process.spin()
     del exporter
     return 0
