@@ -10,14 +10,14 @@ namespace object_modelling::alignment
 {
 namespace
 {
-const Eigen::Vector3f X = Eigen::Vector3f::UnitX(), Y = Eigen::Vector3f::UnitY(), Z = Eigen::Vector3f::UnitZ();
-const Eigen::Vector3i COUNT(30, 40, 20);  // points along the edges of a box, 60 x 80 x 40 mm
+using registration::X, registration::Y, registration::Z;
+const Eigen::Vector3i BOX_COUNT(30, 40, 20);  // points along the edges of a box, 60 x 80 x 40 mm
 
 /// A plain box about the origin, and two views of its face at z = -20 mm; beside it they saw what is far behind.
 registration::PartialModel box()
 {
   registration::PartialModel part = registration::madePart();
-  const Eigen::Vector3f half = 0.5F * registration::SPACING_M * (COUNT.array() - 1).cast<float>();
+  const Eigen::Vector3f half = 0.5F * registration::SPACING_M * (BOX_COUNT.array() - 1).cast<float>();
   const Eigen::Vector3f axes[] = { X, Y, Z };
   for (int i = 0; i < 3; ++i)
     for (const bool far : { false, true })
@@ -25,7 +25,7 @@ registration::PartialModel box()
       const int u = (i + (far ? 1 : 2)) % 3, v = (i + (far ? 2 : 1)) % 3;
       Eigen::Vector3f corner = -half;
       corner[i] = far ? half[i] : -half[i];
-      registration::addPatch(corner, axes[u], axes[v], COUNT[u], COUNT[v], registration::plain, &part);
+      registration::addPatch(corner, axes[u], axes[v], BOX_COUNT[u], BOX_COUNT[v], registration::plain, &part);
     }
   registration::SpaceView view = registration::viewAlongZ(1.5F);
   // 5 mm are a pixel: the face, and one pixel round it.

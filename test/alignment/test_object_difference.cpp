@@ -10,7 +10,7 @@ namespace object_modelling::alignment
 {
 namespace
 {
-const Eigen::Vector3f X = Eigen::Vector3f::UnitX(), Y = Eigen::Vector3f::UnitY(), Z = Eigen::Vector3f::UnitZ();
+using registration::X, registration::Y, registration::Z;
 
 /// A plate of 160 x 160 mm about the origin, normal z.
 registration::PartialModel plate(const registration::ColorAt& color)

@@ -46,7 +46,8 @@ Eigen::Matrix3d about(const Eigen::Vector3d& axis, double degrees)
   return Eigen::AngleAxisd(degrees * M_PI / 180, axis).toRotationMatrix();
 }
 
-const Eigen::Vector3d X = Eigen::Vector3d::UnitX(), Y = Eigen::Vector3d::UnitY(), Z = Eigen::Vector3d::UnitZ();
+const Eigen::Vector3d X_AXIS = Eigen::Vector3d::UnitX(), Y_AXIS = Eigen::Vector3d::UnitY(),
+                      Z_AXIS = Eigen::Vector3d::UnitZ();
 
 /// T_a_b of an object that stood as R_a, and then as R_b.
 Eigen::Isometry3d truth(const Eigen::Matrix3d& R_a, double height_a_m, const Eigen::Matrix3d& R_b, double height_b_m)
@@ -80,7 +81,7 @@ class PairAlignmentOfABox : public testing::Test
 protected:
   test_support::SceneObject box_ = test_support::standingBox(SIZE_M);
   Eigen::Matrix3d upright_ = Eigen::Matrix3d::Identity();
-  Eigen::Matrix3d lying_ = about(Z, 40) * about(X, 90);
+  Eigen::Matrix3d lying_ = about(Z_AXIS, 40) * about(X_AXIS, 90);
 };
 
 TEST_F(PairAlignmentOfABox, FindsItLaidOnItsSide)
@@ -96,14 +97,14 @@ TEST_F(PairAlignmentOfABox, FindsItLaidOnItsSide)
 
 TEST_F(PairAlignmentOfABox, FindsItTurnedUpsideDown)
 {
-  const Eigen::Matrix3d down = about(Z, -70) * about(Y, 180);
+  const Eigen::Matrix3d down = about(Z_AXIS, -70) * about(Y_AXIS, 180);
   expectNear(align(scanned("up", box_, upright_, SIZE_M.z()), scanned("down", box_, down, SIZE_M.z())),
              truth(upright_, SIZE_M.z(), down, SIZE_M.z()), SIZE_M.z());
 }
 
 TEST_F(PairAlignmentOfABox, FindsItInTheSameRestingPoseIfThatMayBe)
 {
-  const Eigen::Matrix3d turned = about(Z, 100);
+  const Eigen::Matrix3d turned = about(Z_AXIS, 100);
   const registration::PartialModel a = scanned("up", box_, upright_, SIZE_M.z()),
                                    b = scanned("again", box_, turned, SIZE_M.z());
   PairAlignmentOptions same_pose;

@@ -12,7 +12,7 @@ namespace object_modelling::alignment
 {
 namespace
 {
-const Eigen::Vector3f X = Eigen::Vector3f::UnitX(), Y = Eigen::Vector3f::UnitY(), Z = Eigen::Vector3f::UnitZ();
+using registration::X, registration::Y, registration::Z;
 
 /// Figures of a pose that is right: turned over, touching, texture that agrees.
 registration::PairQuality good()

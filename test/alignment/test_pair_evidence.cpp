@@ -19,7 +19,7 @@ double valueOf(Feature feature, const registration::PairQuality& quality)
 }
 
 /// A pose like those that are right: turned over, touching, texture that agrees.
-registration::PairQuality good()
+registration::PairQuality goodQuality()
 {
   registration::PairQuality quality;
   quality.overlap_ratio = 0.6;
@@ -46,7 +46,7 @@ TEST(PairEvidence, NamesEveryFeatureOnce)
 
 TEST(PairEvidence, HoldsAgainstAPoseThatTheObjectWasNotTurnedOver)
 {
-  registration::PairQuality quality = good();
+  registration::PairQuality quality = goodQuality();
   EXPECT_EQ(turnPrior(quality, 0.01), 0);
   quality.turn_rad = 0;
   EXPECT_NEAR(turnPrior(quality, 0.01), std::log(0.01 / 0.99), 1e-12);
@@ -56,14 +56,14 @@ TEST(PairEvidence, HoldsAgainstAPoseThatTheObjectWasNotTurnedOver)
   EXPECT_GT(turnPrior(quality, 0.01), std::log(0.01 / 0.99));
   quality.turn_rad = -1;
   EXPECT_EQ(turnPrior(quality, 0.01), 0) << "not known";
-  EXPECT_TRUE(std::isfinite(turnPrior(good(), 0)));
+  EXPECT_TRUE(std::isfinite(turnPrior(goodQuality(), 0)));
 }
 
 TEST(PairEvidence, WantsTheObjectToTouchWhatItStoodOn)
 {
-  registration::PairQuality floats = good();
+  registration::PairQuality floats = goodQuality();
   floats.contact_gap_m = 0.005;
-  EXPECT_LT(valueOf(Feature::CONTACT, floats), valueOf(Feature::CONTACT, good()) - 1);
+  EXPECT_LT(valueOf(Feature::CONTACT, floats), valueOf(Feature::CONTACT, goodQuality()) - 1);
   // Not turned over, what was hidden at the foot is hidden in both.
   floats.turn_rad = 0;
   EXPECT_NEAR(valueOf(Feature::CONTACT, floats), 0, 1e-9);
@@ -73,7 +73,7 @@ TEST(PairEvidence, WantsTheObjectToTouchWhatItStoodOn)
 
 TEST(PairEvidence, TakesRoughSurfacesForLessExact)
 {
-  registration::PairQuality rough = good();
+  registration::PairQuality rough = goodQuality();
   rough.contact_gap_m = rough.rmse_m = 0.002;
   registration::PairQuality smooth = rough;
   rough.roughness_m = 0.002;
@@ -83,11 +83,11 @@ TEST(PairEvidence, TakesRoughSurfacesForLessExact)
 
 TEST(PairEvidence, DoesNotPrizeOverlapBeyondAThird)
 {
-  registration::PairQuality all = good(), little = good();
+  registration::PairQuality all = goodQuality(), little = goodQuality();
   all.overlap_ratio = 1;
-  EXPECT_EQ(valueOf(Feature::OVERLAP, all), valueOf(Feature::OVERLAP, good()));
+  EXPECT_EQ(valueOf(Feature::OVERLAP, all), valueOf(Feature::OVERLAP, goodQuality()));
   little.overlap_ratio = 0.15;
-  EXPECT_LT(valueOf(Feature::OVERLAP, little), valueOf(Feature::OVERLAP, good()));
+  EXPECT_LT(valueOf(Feature::OVERLAP, little), valueOf(Feature::OVERLAP, goodQuality()));
 }
 
 TEST(PairEvidence, TellsPrintThatAgreesFromOtherAndFromNone)
@@ -100,27 +100,27 @@ TEST(PairEvidence, TellsPrintThatAgreesFromOtherAndFromNone)
       sum += values[static_cast<std::size_t>(feature)];
     return sum;
   };
-  registration::PairQuality other = good(), plain = good(), relit = good();
+  registration::PairQuality other = goodQuality(), plain = goodQuality(), relit = goodQuality();
   other.color_agreement = other.edge_agreement = 0;
   plain.texture = plain.edge_strength = 0;
   relit.color_agreement = 0.4;
   EXPECT_NEAR(of_texture(plain), 0, 1e-9);
-  EXPECT_GT(of_texture(good()), of_texture(other) + 2);
-  EXPECT_LT(valueOf(Feature::COLOR, relit), valueOf(Feature::COLOR, good()));
+  EXPECT_GT(of_texture(goodQuality()), of_texture(other) + 2);
+  EXPECT_LT(valueOf(Feature::COLOR, relit), valueOf(Feature::COLOR, goodQuality()));
   relit.light_variance = 0.02;
-  EXPECT_GT(valueOf(Feature::COLOR, relit), valueOf(Feature::COLOR, good())) << "as much as light explains";
+  EXPECT_GT(valueOf(Feature::COLOR, relit), valueOf(Feature::COLOR, goodQuality())) << "as much as light explains";
 }
 
 TEST(PairEvidence, HoldsAHandleThatIsElsewhereAgainstAPose)
 {
-  registration::PairQuality handle = good();
+  registration::PairQuality handle = goodQuality();
   handle.fsv_ratio = 0.06;
-  EXPECT_LT(logOdds(handle, 0.01), logOdds(good(), 0.01) - 2);
+  EXPECT_LT(logOdds(handle, 0.01), logOdds(goodQuality(), 0.01) - 2);
 }
 
 TEST(PairEvidence, HasKnownValues)
 {
-  registration::PairQuality quality = good();
+  registration::PairQuality quality = goodQuality();
   quality.overlap_ratio = 0.1;
   EXPECT_NEAR(valueOf(Feature::OVERLAP, quality), -0.2, 1e-12);
   quality.fsv_ratio = 0.004;
@@ -146,7 +146,7 @@ TEST(PairEvidence, HasKnownValues)
 TEST(PairEvidence, HasKnownValuesOfPrint)
 {
   // Variance 0.01 of the colours, 0.0025 of their slopes: as much as between sessions.
-  registration::PairQuality quality = good();
+  registration::PairQuality quality = goodQuality();
   quality.texture = 0.1;
   quality.edge_strength = 0.05;
   quality.color_agreement = quality.edge_agreement = 1;
@@ -169,7 +169,7 @@ TEST(PairEvidence, HasKnownValuesOfPrint)
 
 /// The log odds as one figure goes from one value to another, all else as of a pose that is right.
 std::vector<double> sweep(double registration::PairQuality::*figure, double from, double to,
-                          registration::PairQuality quality = good())
+                          registration::PairQuality quality = goodQuality())
 {
   constexpr int STEPS = 50;
   std::vector<double> odds;
@@ -198,34 +198,34 @@ TEST(PairEvidence, OddsOnlyRiseAsAPoseFitsBetter)
   expectRising(sweep(&registration::PairQuality::edge_agreement, -1, 1), "slopes");
   expectRising(sweep(&registration::PairQuality::features_upheld, 0, 500), "features");
   expectRising(sweep(&registration::PairQuality::turn_rad, 0, M_PI), "turn");
-  registration::PairQuality opposite = good();
+  registration::PairQuality opposite = goodQuality();
   opposite.color_agreement = opposite.edge_agreement = -1;
   expectRising(sweep(&registration::PairQuality::light_variance, 0, 0.1, opposite), "light");
   expectRising(sweep(&registration::PairQuality::texture, 1, 0, opposite), "texture that disagrees");
   expectRising(sweep(&registration::PairQuality::edge_strength, 1, 0, opposite), "slopes that disagree");
   expectRising(sweep(&registration::PairQuality::edge_strength, 0, 1), "slopes that agree");
-  registration::PairQuality off = good();
+  registration::PairQuality off = goodQuality();
   off.rmse_m = off.contact_gap_m = 0.003;
   expectRising(sweep(&registration::PairQuality::roughness_m, 0, 0.002, off), "roughness, of what is off");
 }
 
 TEST(PairEvidence, OddsRiseWithHowOftenObjectsStayAsTheyLay)
 {
-  registration::PairQuality stayed = good();
+  registration::PairQuality stayed = goodQuality();
   stayed.turn_rad = 0;
   double last = -INFINITY;
   for (const double probability : { 0.0, 0.001, 0.01, 0.1, 0.5, 0.9, 1.0 })
   {
     EXPECT_GT(logOdds(stayed, probability), last) << probability;
     EXPECT_TRUE(std::isfinite(logOdds(stayed, probability))) << probability;
-    EXPECT_EQ(logOdds(good(), probability), logOdds(good(), 0.5)) << "it was turned";
+    EXPECT_EQ(logOdds(goodQuality(), probability), logOdds(goodQuality(), 0.5)) << "it was turned";
     last = logOdds(stayed, probability);
   }
 }
 
 TEST(PairEvidence, SaysNotTurnedUpToHalfWayBetween15And30Degrees)
 {
-  registration::PairQuality quality = good();
+  registration::PairQuality quality = goodQuality();
   for (const auto& [degrees, stayed] : { std::pair(0, true), { 15, true }, { 22, true }, { 23, false }, { 90, false } })
   {
     quality.turn_rad = degrees * M_PI / 180;
@@ -246,7 +246,7 @@ TEST(PairEvidence, OfDegenerateFiguresIsFinite)
 
 TEST(PairEvidence, AddsUp)
 {
-  const registration::PairQuality quality = good();
+  const registration::PairQuality quality = goodQuality();
   double sum = 0;
   for (const double contribution : contributions(quality))
     sum += contribution;

@@ -75,18 +75,18 @@ TEST(RelaxPoseGraph, FindsThePosesOfEdgesThatAgree)
       edges.push_back(edgeOf(i, (i + step) % COUNT, truth[i].inverse() * truth[(i + step) % COUNT]));
   std::mt19937 random(7);
   std::normal_distribution<double> normal(0, 0.03);
-  constexpr int FIXED = 3;
+  constexpr int FIXED_POSE = 3;
   std::vector<Eigen::Isometry3d> poses = truth;
   for (int i = 0; i < COUNT; ++i)
-    if (i != FIXED)
+    if (i != FIXED_POSE)
     {
       geometry::Vector6d motion;
       for (int axis = 0; axis < 6; ++axis)
         motion[axis] = normal(random);
       poses[i] = poses[i] * geometry::isometryFromVector(motion);
     }
-  relaxPoseGraph(edges, FIXED, &poses);
-  EXPECT_EQ(poses[FIXED].matrix(), truth[FIXED].matrix());
+  relaxPoseGraph(edges, FIXED_POSE, &poses);
+  EXPECT_EQ(poses[FIXED_POSE].matrix(), truth[FIXED_POSE].matrix());
   for (int i = 0; i < COUNT; ++i)
     EXPECT_TRANSFORM_NEAR(poses[i], truth[i], 1e-6, 1e-6);
 }

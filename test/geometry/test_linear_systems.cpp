@@ -9,7 +9,7 @@ namespace object_modelling::geometry
 {
 namespace
 {
-constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+constexpr double UNKNOWN = std::numeric_limits<double>::quiet_NaN();
 
 /// Symmetric and positive definite; the same at every call.
 Matrix6d someInformation()
@@ -95,7 +95,7 @@ TEST(LinearSystems, InformationOverNoiseIsTheSameInBothSizes)
 
 TEST(LinearSystems, InformationThatIsNotFiniteHasNoRatios)
 {
-  EXPECT_FALSE(informationOverNoise(Matrix6d(Matrix6d::Constant(NOT_A_NUMBER)), Matrix6d(Matrix6d::Identity())));
+  EXPECT_FALSE(informationOverNoise(Matrix6d(Matrix6d::Constant(UNKNOWN)), Matrix6d(Matrix6d::Identity())));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace object_modelling::geometry
 {
 namespace
 {
-PinholeCamera someCamera()
+PinholeCamera smallCamera()
 {
   PinholeCamera camera;
   camera.width = 64;
@@ -24,8 +24,8 @@ PinholeCamera someCamera()
 template <typename Scalar>
 Projection<Scalar> seenAt(double u_px, double v_px, double z_m, double border_px)
 {
-  const Eigen::Matrix<Scalar, 3, 1> p = someCamera().unproject(u_px, v_px, z_m).template cast<Scalar>();
-  return projectionOf(someCamera(), p, border_px);
+  const Eigen::Matrix<Scalar, 3, 1> p = smallCamera().unproject(u_px, v_px, z_m).template cast<Scalar>();
+  return projectionOf(smallCamera(), p, border_px);
 }
 
 template <typename Scalar>
@@ -36,7 +36,7 @@ public:
   {
     return seenAt<Scalar>(u_px, v_px, 2, border_px).inside;
   }
-  static bool inside(const Eigen::Matrix<Scalar, 3, 1>& p) { return projectionOf(someCamera(), p).inside; }
+  static bool inside(const Eigen::Matrix<Scalar, 3, 1>& p) { return projectionOf(smallCamera(), p).inside; }
 };
 
 using Scalars = testing::Types<float, double>;
@@ -44,28 +44,28 @@ TYPED_TEST_SUITE(Projected, Scalars);
 
 TYPED_TEST(Projected, FallsAtThePixelOfTheCamera)
 {
-  const Projection<TypeParam> at = projectionOf(someCamera(), Eigen::Matrix<TypeParam, 3, 1>(0.25, -0.5, 2));
+  const Projection<TypeParam> at = projectionOf(smallCamera(), Eigen::Matrix<TypeParam, 3, 1>(0.25, -0.5, 2));
   EXPECT_TRUE(at.inside);
   EXPECT_EQ(at.u_px, TypeParam(37.75));
   EXPECT_EQ(at.v_px, TypeParam(14));
   EXPECT_EQ(at.z_m, TypeParam(2));
   EXPECT_EQ(at.column, 38);
   EXPECT_EQ(at.row, 14);
-  EXPECT_EQ(at.pixel().template cast<double>(), someCamera().project({ 0.25, -0.5, 2 }));
+  EXPECT_EQ(at.pixel().template cast<double>(), smallCamera().project({ 0.25, -0.5, 2 }));
 }
 
 TYPED_TEST(Projected, ComesBackToThePixelThatItWasSeenAt)
 {
-  for (int v = 0; v < someCamera().height; ++v)
+  for (int v = 0; v < smallCamera().height; ++v)
   {
-    for (int u = 0; u < someCamera().width; ++u)
+    for (int u = 0; u < smallCamera().width; ++u)
     {
       const Projection<TypeParam> at = seenAt<TypeParam>(u, v, 0.7, -0.5);
       ASSERT_TRUE(at.inside) << u << " " << v;
       ASSERT_EQ(at.column, u);
       ASSERT_EQ(at.row, v);
-      const Eigen::Vector3d back = someCamera().unproject(at.u_px, at.v_px, at.z_m);
-      ASSERT_TRUE(back.isApprox(someCamera().unproject(u, v, 0.7), 1e-5)) << u << " " << v;
+      const Eigen::Vector3d back = smallCamera().unproject(at.u_px, at.v_px, at.z_m);
+      ASSERT_TRUE(back.isApprox(smallCamera().unproject(u, v, 0.7), 1e-5)) << u << " " << v;
     }
   }
 }
@@ -107,7 +107,7 @@ TYPED_TEST(Projected, HasTheImageEndHalfAPixelBeyondTheOutermostCenters)
 
 TYPED_TEST(Projected, OnTheRimIsInsideIfItsPixelIs)
 {
-  PinholeCamera exact = someCamera();
+  PinholeCamera exact = smallCamera();
   exact.fx = exact.fy = 32;  // no rounding
   const Projection<TypeParam> first = projectionOf(exact, Eigen::Matrix<TypeParam, 3, 1>(-1, -0.765625, 1));
   EXPECT_EQ(first.u_px, TypeParam(-0.5));

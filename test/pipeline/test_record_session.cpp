@@ -12,8 +12,8 @@ using ::testing::Test;
 
 namespace
 {
-constexpr int FRAMES = 24;
-constexpr double TURN_RAD = 1.2;
+constexpr int FRAME_COUNT = 24;
+constexpr double WALK_RAD = 1.2;
 
 bool contains(const std::string& text, const std::string& part)
 {
@@ -31,7 +31,7 @@ protected:
     return recordSession(source, named("walk"), store_.get(), options, control);
   }
 
-  const Recording& recording_ = walkRoundBox(FRAMES, TURN_RAD);
+  const Recording& recording_ = walkRoundBox(FRAME_COUNT, WALK_RAD);
   test_support::TempDir folder_;
   std::unique_ptr<keyframes::SessionStore> store_ = keyframes::openSqlStore(folder_.path("store.db"));
 };
@@ -40,15 +40,15 @@ TEST_F(RecordSession, StoresTheKeyframesAndFollowsTheTruth)
 {
   const RecordReport report = record();
   EXPECT_EQ(report.session_id, "walk");
-  EXPECT_EQ(report.frame_count, FRAMES);
-  EXPECT_EQ(report.tracked_count, FRAMES);
+  EXPECT_EQ(report.frame_count, FRAME_COUNT);
+  EXPECT_EQ(report.tracked_count, FRAME_COUNT);
   EXPECT_EQ(report.unusable_count, 0);
   EXPECT_EQ(report.lost_count, 0);
   EXPECT_EQ(report.relocalised_count, 0);
   EXPECT_EQ(report.first_problem, "");
   EXPECT_EQ(report.trackedRatio(), 1.0);
-  EXPECT_EQ(report.track_ms.size(), std::size_t(FRAMES));
-  ASSERT_EQ(report.trajectory.size(), std::size_t(FRAMES));
+  EXPECT_EQ(report.track_ms.size(), std::size_t(FRAME_COUNT));
+  ASSERT_EQ(report.trajectory.size(), std::size_t(FRAME_COUNT));
 
   const TrajectoryError error = trajectoryError(report.trajectory, recording_);
   EXPECT_LT(error.position_m, 0.003);
@@ -62,7 +62,7 @@ TEST_F(RecordSession, StoresTheKeyframesAndFollowsTheTruth)
   EXPECT_DOUBLE_EQ(session.started_s, recording_.frames[0].stamp_s);
   // 1.2 rad in steps of 12 degrees
   EXPECT_GE(report.keyframe_count, 4);
-  EXPECT_LT(report.keyframe_count, FRAMES);
+  EXPECT_LT(report.keyframe_count, FRAME_COUNT);
 
   const std::vector<rgbd::Keyframe> stored = keyframes::loadKeyframes(*store_, "walk");
   ASSERT_EQ(stored.size(), std::size_t(report.keyframe_count));
@@ -95,8 +95,8 @@ TEST_F(RecordSession, ReportsProgressAndLeavesNoSessionWhenCancelled)
       {
         EXPECT_EQ(progress.stage, "track");
         EXPECT_EQ(progress.done, std::size_t(calls++));
-        EXPECT_EQ(progress.total, std::size_t(FRAMES));
-        if (progress.done == FRAMES / 2)
+        EXPECT_EQ(progress.total, std::size_t(FRAME_COUNT));
+        if (progress.done == FRAME_COUNT / 2)
         {
           keyframes_before = store_->keyframeIds("walk").size();
           hand->cancel();
@@ -174,9 +174,9 @@ TEST_F(RecordSession, BridgesFramesWithoutDepthUpToTheAllowedShare)
   EXPECT_TRUE(store_->listSessions().empty());
 
   const RecordReport report = record(everySecond);
-  EXPECT_EQ(report.frame_count, FRAMES);
-  EXPECT_EQ(report.unusable_count, FRAMES / 2);
-  EXPECT_EQ(report.tracked_count, FRAMES / 2);
+  EXPECT_EQ(report.frame_count, FRAME_COUNT);
+  EXPECT_EQ(report.unusable_count, FRAME_COUNT / 2);
+  EXPECT_EQ(report.tracked_count, FRAME_COUNT / 2);
   EXPECT_EQ(report.trackedRatio(), 0.5);
   EXPECT_TRUE(contains(report.first_problem, "frame 1 unusable: ")) << report.first_problem;
   EXPECT_LT(trajectoryError(report.trajectory, recording_).position_m, 0.005);

@@ -8,6 +8,7 @@
 
 namespace object_modelling::registration
 {
+inline const Eigen::Vector3f X = Eigen::Vector3f::UnitX(), Y = Eigen::Vector3f::UnitY(), Z = Eigen::Vector3f::UnitZ();
 constexpr float SPACING_M = 0.002F;
 
 using ColorAt = std::function<Eigen::Vector3f(const Eigen::Vector3f& p)>;

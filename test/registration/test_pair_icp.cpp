@@ -13,7 +13,6 @@ namespace object_modelling::registration
 {
 namespace
 {
-const Eigen::Vector3f X = Eigen::Vector3f::UnitX(), Y = Eigen::Vector3f::UnitY(), Z = Eigen::Vector3f::UnitZ();
 constexpr double DEGREE_RAD = M_PI / 180, MM_M = 1e-3;
 
 Eigen::Vector3f texture(const Eigen::Vector3f& p)

@@ -11,7 +11,6 @@ namespace object_modelling::registration
 {
 namespace
 {
-const Eigen::Vector3f X = Eigen::Vector3f::UnitX(), Y = Eigen::Vector3f::UnitY(), Z = Eigen::Vector3f::UnitZ();
 constexpr int SIDE = 20;  // points along a side of a plate
 constexpr float HALF_M = 0.5F * SPACING_M * (SIDE - 1);
 

@@ -7,6 +7,7 @@
 #include "object_modelling/base/status.h"
 #include "object_modelling/ros_bridge/bag_source.h"
 #include "support/temp_dir.h"
+#include "support/thrown_status.h"
 
 namespace object_modelling::ros_bridge
 {
@@ -56,11 +57,6 @@ protected:
 
   test_support::TempDir folder_;
 };
-
-bool names(const std::string& text, const std::string& what)
-{
-  return text.find(what) != std::string::npos;
-}
 
 TEST_F(BagSourceTest, FindsTopicsAndPairsFrames)
 {
@@ -144,34 +140,36 @@ TEST_F(BagSourceTest, AmbiguousTopicsAreListed)
   writer.depth("/a/depth", 1, 1);
   writer.close();
   const std::string text = refusal(path("two.bag"), base::StatusCode::BAD_INPUT);
-  EXPECT_TRUE(names(text, "several colour topics") && names(text, "/a/image_color") && names(text, "/b/image_color"))
+  EXPECT_TRUE(test_support::mentions(text, "several colour topics") && test_support::mentions(text, "/a/image_color") &&
+              test_support::mentions(text, "/b/image_color"))
       << text;
   BagSourceOptions options;
   options.topics.color = "/b/image_color";
   EXPECT_EQ(2, openBag(path("two.bag"), options)->next()->color.at<cv::Vec3b>(0, 0)[0]);
   options.topics.color = "/c/image_color";
-  EXPECT_TRUE(names(refusal(path("two.bag"), base::StatusCode::NOT_FOUND, options), "/c/image_color"));
+  EXPECT_TRUE(test_support::mentions(refusal(path("two.bag"), base::StatusCode::NOT_FOUND, options), "/c/image_color"));
 }
 
 TEST_F(BagSourceTest, SaysWhatIsMissing)
 {
   BagWriter empty(path("empty.bag"));
   empty.close();
-  EXPECT_TRUE(names(refusal(path("empty.bag"), base::StatusCode::BAD_INPUT), "no colour topic"));
+  EXPECT_TRUE(test_support::mentions(refusal(path("empty.bag"), base::StatusCode::BAD_INPUT), "no colour topic"));
 
   BagWriter apart(path("apart.bag"));
   apart.info(INFO, 1);
   apart.color(COLOR, 1, 1);
   apart.depth(DEPTH, 1.5, 1);
   apart.close();
-  EXPECT_TRUE(names(refusal(path("apart.bag"), base::StatusCode::BAD_INPUT), "max_stamp_difference_s"));
+  EXPECT_TRUE(
+      test_support::mentions(refusal(path("apart.bag"), base::StatusCode::BAD_INPUT), "max_stamp_difference_s"));
 
   BagWriter unregistered(path("unregistered.bag"));
   unregistered.info(INFO, 1);
   unregistered.color(COLOR, 1, 1);
   unregistered.depth("/camera/depth/image", 1, 1, 0, "ir");
   unregistered.close();
-  EXPECT_TRUE(names(refusal(path("unregistered.bag"), base::StatusCode::BAD_INPUT), "not registered"));
+  EXPECT_TRUE(test_support::mentions(refusal(path("unregistered.bag"), base::StatusCode::BAD_INPUT), "not registered"));
 
   refusal(path("none.bag"), base::StatusCode::NOT_FOUND);
 }

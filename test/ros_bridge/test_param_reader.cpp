@@ -2,6 +2,7 @@
 
 #include "object_modelling/base/status.h"
 #include "object_modelling/ros_bridge/param_reader.h"
+#include "support/thrown_status.h"
 
 namespace object_modelling::ros_bridge
 {
@@ -53,11 +54,6 @@ std::string refusal(const XmlRpc::XmlRpcValue& parameters)
   return "nothing was refused";
 }
 
-bool names(const std::string& text, const std::string& what)
-{
-  return text.find(what) != std::string::npos;
-}
-
 TEST(ParamReader, DefaultsStayWithoutParameters)
 {
   const Options options = read(XmlRpc::XmlRpcValue());
@@ -93,21 +89,21 @@ TEST(ParamReader, SaysEverythingThatIsWrongAtOnce)
   parameters["mode"] = std::string("medium");
   parameters["group"]["cuont"] = 5;
   const std::string text = refusal(parameters);
-  EXPECT_TRUE(names(text, "/node")) << text;
-  EXPECT_TRUE(names(text, "flag = 1: must be true or false, is a integer")) << text;
-  EXPECT_TRUE(names(text, "group/count: too many")) << text;
-  EXPECT_TRUE(names(text, "group/seed = -1")) << text;
-  EXPECT_TRUE(names(text, "ratio = half: must be a number")) << text;
-  EXPECT_TRUE(names(text, "mode = \"medium\": must be one of slow, fast")) << text;
-  EXPECT_TRUE(names(text, "group/cuont = 5: no such parameter")) << text;
-  EXPECT_TRUE(names(text, "known are flag, group/count")) << text;
+  EXPECT_TRUE(test_support::mentions(text, "/node")) << text;
+  EXPECT_TRUE(test_support::mentions(text, "flag = 1: must be true or false, is a integer")) << text;
+  EXPECT_TRUE(test_support::mentions(text, "group/count: too many")) << text;
+  EXPECT_TRUE(test_support::mentions(text, "group/seed = -1")) << text;
+  EXPECT_TRUE(test_support::mentions(text, "ratio = half: must be a number")) << text;
+  EXPECT_TRUE(test_support::mentions(text, "mode = \"medium\": must be one of slow, fast")) << text;
+  EXPECT_TRUE(test_support::mentions(text, "group/cuont = 5: no such parameter")) << text;
+  EXPECT_TRUE(test_support::mentions(text, "known are flag, group/count")) << text;
 }
 
 TEST(ParamReader, AScalarWhereAMapIsWanted)
 {
   XmlRpc::XmlRpcValue parameters;
   parameters["group"] = 5;
-  EXPECT_TRUE(names(refusal(parameters), "group = 5: no such parameter"));
+  EXPECT_TRUE(test_support::mentions(refusal(parameters), "group = 5: no such parameter"));
 }
 }  // namespace
 }  // namespace object_modelling::ros_bridge

@@ -10,7 +10,7 @@ namespace object_modelling::ros_bridge
 {
 namespace
 {
-Eigen::Isometry3d somePose()
+Eigen::Isometry3d turnedPose()
 {
   return geometry::isometryFrom(Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 0.5).normalized())),
                                 { 0.4, -0.8, 1.5 });
@@ -35,7 +35,7 @@ geometry::Matrix6d matrixOf(const geometry_msgs::PoseWithCovariance& message)
 // What the message says is the spread of the positions and of the rotations about the target's axes.
 TEST(PoseConversion, CovarianceIsThatOfPositionAndFixedAxes)
 {
-  const Eigen::Isometry3d T = somePose();
+  const Eigen::Isometry3d T = turnedPose();
   const geometry::Matrix6d covariance = someCovariance();
   const geometry::Matrix6d root = covariance.llt().matrixL();
   std::mt19937 random(3);
@@ -73,9 +73,9 @@ TEST(PoseConversion, CovarianceOfARotationAboutTheTargetsOriginMovesADistantCame
 TEST(PoseConversion, CovarianceComesBack)
 {
   const geometry::Matrix6d covariance = someCovariance();
-  EXPECT_TRUE(covarianceFromMessage(toMessage(somePose(), covariance)).isApprox(covariance, 1e-9));
-  EXPECT_TRUE(covarianceFromMessage(toMessage(somePose(), geometry::Matrix6d::Zero())).isZero(0));
-  geometry_msgs::PoseWithCovariance message = toMessage(somePose(), covariance);
+  EXPECT_TRUE(covarianceFromMessage(toMessage(turnedPose(), covariance)).isApprox(covariance, 1e-9));
+  EXPECT_TRUE(covarianceFromMessage(toMessage(turnedPose(), geometry::Matrix6d::Zero())).isZero(0));
+  geometry_msgs::PoseWithCovariance message = toMessage(turnedPose(), covariance);
   message.covariance[3] = std::nan("");
   EXPECT_THROW(covarianceFromMessage(message), base::Error);
 }

@@ -14,7 +14,7 @@ namespace
 using test_support::standingBox;
 
 /// A box with a neighbour 3 cm beside it, seen from round about.
-test_support::SyntheticScene twoBoxes()
+test_support::SyntheticScene boxBesideBox()
 {
   test_support::SyntheticScene scene;
   scene.objects = { standingBox({ 0.08, 0.12, 0.15 }), standingBox({ 0.08, 0.1, 0.1 }, 0.11, 0, 0, 9) };
@@ -45,7 +45,7 @@ base::Status startAt(ObjectMaskPropagator* propagator, const rgbd::Keyframe& key
 
 TEST(ObjectMaskPropagator, FollowsTheObjectRoundAndLeavesItsNeighbor)
 {
-  const std::vector<rgbd::Keyframe> keyframes = orbit(twoBoxes(), 18);
+  const std::vector<rgbd::Keyframe> keyframes = orbit(boxBesideBox(), 18);
   ObjectMaskPropagator propagator;
   ASSERT_TRUE(startAt(&propagator, withoutMask(keyframes[0])).ok());
   for (const rgbd::Keyframe& keyframe : keyframes)
@@ -61,13 +61,13 @@ TEST(ObjectMaskPropagator, FollowsTheObjectRoundAndLeavesItsNeighbor)
 
 TEST(ObjectMaskPropagator, WorksWhereTheObjectIsCutOffByTheImage)
 {
-  const std::vector<rgbd::Keyframe> keyframes = orbit(twoBoxes(), 18);
+  const std::vector<rgbd::Keyframe> keyframes = orbit(boxBesideBox(), 18);
   ObjectMaskPropagator propagator;
   ASSERT_TRUE(startAt(&propagator, withoutMask(keyframes[0])).ok());
   for (const rgbd::Keyframe& keyframe : keyframes)
     propagator.propagate(withoutMask(keyframe));
   rgbd::Keyframe beside =
-      test_support::renderKeyframes(twoBoxes(), test_support::vgaCamera(),
+      test_support::renderKeyframes(boxBesideBox(), test_support::vgaCamera(),
                                     { test_support::lookAt({ -0.1, -0.7, 0.5 }, { -0.47, 0, 0 }) }, kinectNoise())
           .front();
   const int seen = cv::countNonZero(beside.frame.object_mask);
@@ -79,7 +79,7 @@ TEST(ObjectMaskPropagator, WorksWhereTheObjectIsCutOffByTheImage)
 
 TEST(ObjectMaskPropagator, AsksForAStartAndForAHypothesisThatExists)
 {
-  const rgbd::Keyframe keyframe = withoutMask(orbit(twoBoxes(), 4).front());
+  const rgbd::Keyframe keyframe = withoutMask(orbit(boxBesideBox(), 4).front());
   ObjectMaskPropagator propagator;
   EXPECT_FALSE(propagator.started());
   EXPECT_FALSE(propagator.supportPlane());
@@ -96,7 +96,7 @@ TEST(ObjectMaskPropagator, AsksForAStartAndForAHypothesisThatExists)
 
 TEST(ObjectMaskPropagator, SaysThatTheObjectIsNotInView)
 {
-  const std::vector<rgbd::Keyframe> keyframes = orbit(twoBoxes(), 4);
+  const std::vector<rgbd::Keyframe> keyframes = orbit(boxBesideBox(), 4);
   ObjectMaskPropagator propagator;
   ASSERT_TRUE(startAt(&propagator, withoutMask(keyframes[0])).ok());
   rgbd::Keyframe away = withoutMask(keyframes[0]);

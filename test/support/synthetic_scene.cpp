@@ -13,7 +13,7 @@ namespace object_modelling::test_support
 {
 namespace
 {
-constexpr float MISSING = std::numeric_limits<float>::quiet_NaN();
+constexpr float NOTHING = std::numeric_limits<float>::quiet_NaN();
 
 /// Lambertian light from one direction on top of an ambient share: the same from every viewpoint.
 float shading(const Eigen::Vector3f& n_camera, const Eigen::Vector3f& to_light_camera)
@@ -78,8 +78,8 @@ SceneImage renderScene(const SyntheticScene& scene, const geometry::PinholeCamer
       T_world_camera.linear().cast<float>().transpose() * Eigen::Vector3f(0.4f, -0.5f, 0.8f).normalized();
   const cv::Size size(camera.width, camera.height);
   SceneImage image;
-  image.depth_m = cv::Mat(size, CV_32FC1, cv::Scalar(MISSING));
-  image.normals = cv::Mat(size, CV_32FC3, cv::Scalar::all(MISSING));
+  image.depth_m = cv::Mat(size, CV_32FC1, cv::Scalar(NOTHING));
+  image.normals = cv::Mat(size, CV_32FC3, cv::Scalar::all(NOTHING));
   image.instances = cv::Mat::zeros(size, CV_8UC1);
   cv::Mat color(size, CV_8UC3, cv::Scalar::all(90));
   for (int v = 0; v < size.height; ++v)

@@ -21,9 +21,14 @@ base::Status statusOf(const Call& call)
   return {};
 }
 
+inline bool mentions(const std::string& message, const std::string& text)
+{
+  return message.find(text) != std::string::npos;
+}
+
 inline bool mentions(const base::Status& status, const std::string& text)
 {
-  return status.message.find(text) != std::string::npos;
+  return mentions(status.message, text);
 }
 
 }  // namespace object_modelling::test_support

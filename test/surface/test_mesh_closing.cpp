@@ -11,15 +11,15 @@ namespace object_modelling::surface
 namespace
 {
 constexpr int SIDE = 41;
-constexpr float STEP_M = 0.001F;
+constexpr float EDGE_M = 0.001F;
 
-/// A square of SIDE x SIDE vertices, STEP_M apart.
-mesh::TriangleMesh square()
+/// A grid of SIDE x SIDE vertices, EDGE_M apart.
+mesh::TriangleMesh grid()
 {
   mesh::TriangleMesh mesh;
   for (int y = 0; y < SIDE; ++y)
     for (int x = 0; x < SIDE; ++x)
-      mesh.vertices.emplace_back(STEP_M * static_cast<float>(x), STEP_M * static_cast<float>(y), 0);
+      mesh.vertices.emplace_back(EDGE_M * static_cast<float>(x), EDGE_M * static_cast<float>(y), 0);
   for (int y = 0; y + 1 < SIDE; ++y)
     for (int x = 0; x + 1 < SIDE; ++x)
     {
@@ -47,20 +47,20 @@ int count(const std::vector<char>& marks)
 
 TEST(MeshClosing, ClosesGapsThatAreNarrowEnough)
 {
-  const mesh::TriangleMesh mesh = square();
+  const mesh::TriangleMesh mesh = grid();
   EXPECT_EQ(count(closedMarks(mesh, sides(10, 15), 0.0041)), SIDE * SIDE) << "5 mm wide, all along";
   EXPECT_EQ(closedMarks(mesh, sides(10, 30), 0.0041), sides(10, 30)) << "20 mm wide";
 }
 
 TEST(MeshClosing, DoesNotGrowOverARim)
 {
-  const mesh::TriangleMesh mesh = square();
+  const mesh::TriangleMesh mesh = grid();
   EXPECT_EQ(closedMarks(mesh, sides(20, SIDE), 0.0061), sides(20, SIDE));
 }
 
 TEST(MeshClosing, CutsTeethOff)
 {
-  const mesh::TriangleMesh mesh = square();
+  const mesh::TriangleMesh mesh = grid();
   std::vector<char> marks = sides(20, SIDE);
   for (int x = 20; x < 26; ++x)
     marks[10 * SIDE + x] = 1;  // one vertex wide
@@ -72,7 +72,7 @@ TEST(MeshClosing, CutsTeethOff)
 
 TEST(MeshClosing, TakesNothingAndAll)
 {
-  const mesh::TriangleMesh mesh = square();
+  const mesh::TriangleMesh mesh = grid();
   const std::vector<char> none(SIDE * SIDE, 0), all(SIDE * SIDE, 1);
   EXPECT_EQ(closedMarks(mesh, none, 0.01), none);
   EXPECT_EQ(closedMarks(mesh, all, 0.01), all);
@@ -82,7 +82,7 @@ TEST(MeshClosing, TakesNothingAndAll)
 
 TEST(MeshClosing, ClosesHolesOfFewEdgesAndNoOthers)
 {
-  const mesh::TriangleMesh whole = square();
+  const mesh::TriangleMesh whole = grid();
   const std::size_t rim = mesh::checkMesh(whole).boundary_edge_count;
   for (const std::size_t missing : { 1, 2, 40 })
   {

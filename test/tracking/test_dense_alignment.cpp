@@ -15,7 +15,6 @@ namespace object_modelling::tracking
 namespace
 {
 const Eigen::Isometry3d IDENTITY = Eigen::Isometry3d::Identity();
-const Eigen::Vector3d TARGET(0, 0, 0.08);
 constexpr double TOLERANCE_M = 0.002;
 constexpr double TOLERANCE_RAD = 0.003;
 

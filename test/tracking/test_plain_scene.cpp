@@ -14,7 +14,6 @@ namespace object_modelling::tracking
 {
 namespace
 {
-const Eigen::Vector3d TARGET(0, 0, 0.08);
 
 /// The largest error of a pose in standard deviations of its own covariance, over the six axes.
 double errorSigmas(const TrackingResult& result, const Eigen::Isometry3d& T_session_camera)

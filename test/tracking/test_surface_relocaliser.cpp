@@ -13,7 +13,6 @@ namespace object_modelling::tracking
 {
 namespace
 {
-const Eigen::Vector3d TARGET(0, 0, 0.08);
 
 /// A map of four views round a scene, and the question where a frame is in it.
 class SurfaceMap

@@ -10,6 +10,9 @@
 
 namespace object_modelling::tracking
 {
+/// That cameras look at: the middle of what stands on the table.
+inline const Eigen::Vector3d TARGET(0, 0, 0.08);
+
 /// The sensor of these tests.
 inline test_support::SensorNoise sensorNoise(int index)
 {
