@@ -5,6 +5,7 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "evidence.h"
 #include "pose_refinement.h"
 
 namespace object_modelling::recognition
@@ -151,8 +152,8 @@ void setConfidences(const KnownObjects& objects, std::vector<Candidate>* candida
              turnBetween(objects, candidate, other) > RIVAL_ANGLE_RAD;
     };
     const auto rival = std::find_if(candidates->begin(), candidates->end(), rivals);
-    const float rival_score = rival == candidates->end() ? LEAST_SCORE : rival->score;
-    candidate.confidence = rival_score > candidate.score ? 0 : confidenceOf(candidate, rival_score);
+    candidate.rival_score = rival == candidates->end() ? LEAST_SCORE : rival->score;
+    candidate.confidence = candidate.rival_score > candidate.score ? 0 : confidenceOf(candidate);
   }
 }
 

@@ -92,11 +92,10 @@ Recogniser::Recogniser(std::vector<std::shared_ptr<const ObjectKnowledge>> objec
 
 Recogniser::~Recogniser() = default;
 
-std::vector<Candidate> Recogniser::search(const Scene& scene) const
+std::vector<Candidate> Recogniser::search(const Scene& scene, const Deadline& deadline) const
 {
   const RecogniserOptions& options = data_->options;
   const KnownObjects& objects = data_->objects;
-  const Deadline deadline(options.time_budget_s);
   std::vector<Candidate> candidates;
   if (options.use_texture)
     candidates = judged(
@@ -116,13 +115,15 @@ std::vector<Candidate> Recogniser::search(const Scene& scene) const
 
 std::vector<Candidate> Recogniser::candidates(const rgbd::Frame& frame) const
 {
-  return search(data_->sceneOf(frame));
+  const Deadline deadline(data_->options.time_budget_s);
+  return search(data_->sceneOf(frame), deadline);
 }
 
 std::vector<Detection> Recogniser::recognise(const rgbd::Frame& frame) const
 {
+  const Deadline deadline(data_->options.time_budget_s);
   const Scene scene = data_->sceneOf(frame);
-  return chosen(scene, data_->objects, data_->options, search(scene));
+  return chosen(scene, data_->objects, data_->options, search(scene, deadline));
 }
 
 }  // namespace object_modelling::recognition

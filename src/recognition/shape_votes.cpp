@@ -125,12 +125,12 @@ void findPoses(const Scene& scene, const std::vector<std::shared_ptr<const Objec
                     });
 }
 
-/// Those of each cluster that fit best, half of them by the share of their surface, half by its area: small things fit
-/// into much.
+/// Those of each cluster that fit best, half of them by the share of their surface, half by that times their diameter:
+/// small things fit into much.
 std::vector<Pairing> likely(const std::vector<std::shared_ptr<const ObjectKnowledge>>& objects,
                             std::vector<Pairing> pairings, std::size_t per_cluster)
 {
-  const auto area = [&](const Pairing& p)
+  const auto sized = [&](const Pairing& p)
   { return p.score() * objects[static_cast<std::size_t>(p.object)]->diameter_m; };
   std::vector<bool> kept(pairings.size());
   const auto keep = [&](std::size_t most, const auto& value)
@@ -155,7 +155,7 @@ std::vector<Pairing> likely(const std::vector<std::shared_ptr<const ObjectKnowle
       }
     }
   };
-  keep((per_cluster + 1) / 2, area);
+  keep((per_cluster + 1) / 2, sized);
   keep(per_cluster / 2, [](const Pairing& p) { return p.score(); });
   std::vector<Pairing> result;
   for (std::size_t i = 0; i < pairings.size(); ++i)

@@ -27,6 +27,8 @@ SymmetryGroup::SymmetryGroup(const std::vector<object_properties::Symmetry>& sym
       generators.push_back(Eigen::AngleAxisd(2 * M_PI / symmetry.order, symmetry.axis).toRotationMatrix());
     else if (!round_axis_)
       round_axis_ = symmetry.axis;
+    else if (round_axis_->cross(symmetry.axis).norm() > std::sin(SAME_TURN_RAD))
+      ball_ = true;
   }
   for (std::size_t i = 0; i < turns_.size(); ++i)
     for (const Eigen::Matrix3d& generator : generators)
@@ -42,6 +44,8 @@ SymmetryGroup::SymmetryGroup(const std::vector<object_properties::Symmetry>& sym
 
 double SymmetryGroup::angleBetween(const Eigen::Matrix3d& R_camera_model, const Eigen::Matrix3d& R_camera_other) const
 {
+  if (ball_)
+    return 0;
   double least = M_PI;
   for (const Eigen::Matrix3d& turn : turns_)
   {

@@ -24,7 +24,6 @@ constexpr float BEND_COSINE = 0.82F;    // 35 deg
 constexpr double MIN_STEP_M = 0.012;    // by which the scene goes back beyond an outline
 constexpr float NEUTRAL_DISTANCE = 15;  // in L*a*b*: of an object whose colours are not known
 constexpr int MIN_COLORED_PX = 25;
-constexpr int MIN_DRAWN_PX = 20;
 
 /// The part of the thinned image that the object's box covers.
 struct Crop
@@ -129,26 +128,11 @@ void compareColors(const std::vector<ColorPair>& pairs, Verification* result)
   result->chroma_seen = seen.tail<2>().norm();
   result->hue_cosine =
       drawn.tail<2>().dot(seen.tail<2>()) / std::max(1e-3F, result->chroma_drawn * result->chroma_seen);
-  Eigen::Array3d xx(1e-6, 1e-6, 1e-6), xy(0, 0, 0);
-  for (const ColorPair& pair : pairs)
-  {
-    xx += (pair.drawn - drawn).cast<double>().array().square();
-    xy += ((pair.drawn - drawn).cast<double>().array() * (pair.seen - seen).cast<double>().array());
-  }
-  const Eigen::Array3f gain = (xy / xx).cast<float>().max(0.3F).min(2.F);
-  std::vector<double> fitted;
-  for (const ColorPair& pair : pairs)
-    fitted.push_back((pair.seen - seen - (gain * (pair.drawn - drawn).array()).matrix()).norm());
-  result->fitted_distance = static_cast<float>(base::median(&fitted));
   // Plain things correlate by noise alone: what varies by less than 4 counts as not correlated.
   const double floor = 16.0 * static_cast<double>(pairs.size());
   result->color_correlation =
       static_cast<float>(product / std::sqrt(std::max(square_drawn, floor) * std::max(square_seen, floor)));
 }
-}  // namespace
-
-namespace
-{
 /// Counts over the pixels that a drawn object covers.
 class PixelCounts
 {
@@ -297,73 +281,10 @@ private:
 };
 }  // namespace
 
-namespace
-{
-constexpr float TEXTURED = 15;     // contrast in L*a*b* of what counts as textured
-constexpr int MOST_FEATURES = 30;  // more say no more
-
-/// Logarithm of a share's odds, bounded.
-float logOdds(float share)
-{
-  constexpr float LEAST = 0.02F;
-  const float bounded = std::clamp(share, 0.F, 1.F);
-  return std::log((bounded + LEAST) / (1 - bounded + LEAST));
-}
-
-// By test/benchmark/fit_confidence.py (docs/measurements.md, Recognition); in the order of evidenceOf().
-constexpr float OFFSET = -24.1379F;
-constexpr Evidence WEIGHTS = { 0.4113F,  0.9134F,  -0.0908F, 21.2881F, -3.7406F, 9.7019F,  -4.9862F,
-                               -2.7217F, -0.9828F, 1.872F,   1.3603F,  2.4565F,  -4.1325F, -1.3228F };
-}  // namespace
-
 Verification verify(const Scene& scene, const ObjectKnowledge& object, const Eigen::Isometry3d& T_camera_model)
 {
   const Crop crop = cropOf(scene, object, T_camera_model);
   return crop.empty ? Verification() : PixelCounts(scene, object, T_camera_model, crop).result();
-}
-
-Evidence evidenceOf(const Verification& v, const PoseHypothesis& hypothesis)
-{
-  const float visible = v.visible();
-  const float texture = std::min(1.F, v.contrast / TEXTURED);
-  const float agreement = v.color_correlation * texture;
-  const float hue = std::min(2.F, (1 - v.hue_cosine) * std::min(v.chroma_drawn, v.chroma_seen) / 20);
-  return { logOdds(v.explained / std::max(visible, 1e-6F)),
-           logOdds(v.normals_agree),
-           v.contour,
-           std::max(v.edges, 0.6F),
-           agreement,
-           std::max(0.F, agreement - 0.4F),
-           texture,
-           hue,
-           std::min(v.color_distance, 25.F) / 10,
-           std::log10(std::max(1.F, visible * static_cast<float>(v.drawn_px))),
-           v.occluded,
-           std::log1p(static_cast<float>(std::min(hypothesis.matched_features, MOST_FEATURES))),
-           v.flatness * (1 - std::clamp(2 * agreement, 0.F, 1.F)),
-           v.unmeasured };
-}
-
-float scoreOf(const Verification& verification, const PoseHypothesis& hypothesis)
-{
-  if (verification.drawn_px < MIN_DRAWN_PX || !(verification.visible() > 0))
-    return LEAST_SCORE;
-  const Evidence evidence = evidenceOf(verification, hypothesis);
-  float score = OFFSET;
-  for (std::size_t i = 0; i < evidence.size(); ++i)
-    score += WEIGHTS[i] * evidence[i];
-  return std::max(score, LEAST_SCORE);
-}
-
-float confidenceOf(const Candidate& candidate, float rival_score)
-{
-  constexpr float MOST_LEAD = 5;
-  const Verification& v = candidate.verification;
-  const float explained = v.explained / std::max(v.visible(), 1e-6F);
-  const float agreement = v.color_correlation * std::min(1.F, v.contrast / TEXTURED);
-  const float lead = std::min(candidate.score - rival_score, MOST_LEAD);
-  const float score = -21.71F + 1.125F * candidate.score + 0.507F * lead + 22.35F * explained + 4.451F * agreement;
-  return 1 / (1 + std::exp(-score));
 }
 
 }  // namespace object_modelling::recognition

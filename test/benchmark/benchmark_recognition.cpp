@@ -1,4 +1,4 @@
-// Looks for the objects of a database in scenes of BOP, and writes detections and all verified poses.
+// Looks for the objects of a database in scenes of BOP: times, and all verified poses.
 // benchmark_recognition --help; docs/measurements.md, Recognition.
 #include <algorithm>
 #include <chrono>
@@ -26,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 struct Arguments
 {
-  std::string database, numbers, detections, candidates;
+  std::string database, numbers, candidates;
   std::vector<std::string> scenes, ids;
   unsigned light_seed = 0;
   recognition::RecogniserOptions options;
@@ -107,7 +107,8 @@ void writeCandidates(std::ostream& out, int scene, int image, const std::map<std
     const recognition::Verification& v = candidate.verification;
     const auto& object = *objects[static_cast<std::size_t>(candidate.hypothesis.object)];
     out << scene << "," << image << "," << numbers.at(object.id) << "," << candidate.hypothesis.matched_features << ","
-        << candidate.confidence << "," << v.drawn_px;
+        << candidate.confidence << "," << candidate.score << "," << candidate.rival_score << ","
+        << v.explainedOfVisible();
     for (const float evidence : recognition::evidenceOf(v, candidate.hypothesis))
       out << "," << evidence;
     writePose(out, candidate.hypothesis.T_camera_model);
@@ -120,8 +121,7 @@ void work(const Arguments& arguments)
   const auto objects = learn(arguments);
   const std::map<std::string, int> numbers = numbersOf(arguments, objects);
   const recognition::Recogniser recogniser(objects, arguments.options);
-  std::ofstream detections(arguments.detections), candidates(arguments.candidates);
-  detections << "scene_id,im_id,obj_id,score,R,t,time\n";
+  std::ofstream candidates(arguments.candidates);
   std::vector<double> seconds;
   for (const std::string& folder : arguments.scenes)
   {
@@ -138,18 +138,8 @@ void work(const Arguments& arguments)
       }
       const rgbd::Frame frame = builder.build(*raw).value;
       const Clock::time_point start = Clock::now();
-      const std::vector<recognition::Detection> found = recogniser.recognise(frame);
+      recogniser.recognise(frame);
       seconds.push_back(since_s(start));
-      for (const recognition::Detection& detection : found)
-      {
-        const Eigen::Matrix3d R = detection.T_camera_model.linear();
-        const Eigen::Vector3d t_mm = 1000 * detection.T_camera_model.translation();
-        detections << scene << "," << images[i] << "," << numbers.at(detection.object_id) << ","
-                   << detection.confidence_ratio << ",";
-        for (int k = 0; k < 9; ++k)
-          detections << (k > 0 ? " " : "") << R(k / 3, k % 3);
-        detections << "," << t_mm.transpose() << "," << seconds.back() << "\n";
-      }
       if (!arguments.candidates.empty())
         writeCandidates(candidates, scene, images[i], numbers, objects, recogniser.candidates(frame));
       std::cerr << "\r" << folder << " " << i + 1 << " of " << images.size() << std::flush;
@@ -164,13 +154,13 @@ void work(const Arguments& arguments)
 
 int main(int argc, char** argv)
 {
-  CLI::App app("Looks for objects in scenes, for score_recognition.py and fit_confidence.py");
+  CLI::App app(
+      "Looks for objects in scenes: times, and poses for fit_confidence.py (detections: object_modelling recognise)");
   Arguments arguments;
   app.add_option("database", arguments.database, "Folder of the object database")->required();
   app.add_option("scenes", arguments.scenes, "Scene folders of BOP, named by their numbers")->required();
   app.add_option("--id", arguments.ids, "Only these objects");
   app.add_option("--numbers", arguments.numbers, "JSON file: number in the results by object id");
-  app.add_option("--csv", arguments.detections, "Write the detections, as BOP has them");
   app.add_option("--candidates", arguments.candidates, "Write all verified poses, with what speaks for them");
   app.add_option("--light-seed", arguments.light_seed, "Change colours as another camera and light do; 0: do not");
   app.add_option("--time-budget", arguments.options.time_budget_s, "s an image")->capture_default_str();

@@ -1,7 +1,10 @@
 #!/usr/bin/python3
-"""Fits the confidence of the recogniser: logistic regression on what benchmark_recognition --candidates wrote, right
-where ADD (ADD-S for symmetric objects) is below 0.1 diameters. Prints weights for src/recognition/verification.cpp,
-and how often candidates of each confidence are right, by the fit and as they were given.
+"""Fits the confidence of the recogniser: logistic regressions on what benchmark_recognition --candidates wrote, right
+where ADD (ADD-S for symmetric objects) is below 0.1 diameters. Prints weights for src/recognition/evidence.cpp, and
+how often candidates of each confidence are right, by the fit and as they were given.
+
+The score is fitted on all candidates, the confidence on those that are the best of their place. The second needs scores
+by the first: put the weights of the score into evidence.cpp, build, write the candidates anew, and fit again.
 
     fit_confidence.py --frames frames.json a.csv=scenes_a b.csv=scenes_b [--symmetric 5 31] [--test c.csv=scenes_c]
 """
@@ -21,7 +24,11 @@ from evalkit.pose_error import ObjectModel  # noqa: E402
 
 NAMES = ["explained", "normals", "contour", "edges", "correlation", "high_correlation", "texture", "hue", "distance",
          "log_px", "occluded", "features", "flatness", "unmeasured"]
-FIRST = 6  # column of the evidence
+AGREEMENT = NAMES.index("correlation")
+SECOND_NAMES = ["score", "lead", "explained", "agreement"]
+SCORE = 5  # column; then the rival's score, the share explained, and the evidence
+FIRST = 8
+LEAST_SCORE, MOST_LEAD = -8, 5
 BINS = [0, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0001]
 
 
@@ -36,11 +43,11 @@ def right_pose(model, symmetric, truth, pose):
 
 
 def load(argument, frames, symmetric):
-    """(evidence, right, confidence) of all candidates of a file."""
+    """(evidence, second evidence, right, confidence) of all candidates of a file."""
     path, dataset = argument.split("=", 1)
     models = {k: ObjectModel(mesh) for k, mesh in read_models(dataset).items()}
     scenes = {k: read_scene(folder) for k, folder in scene_folders(dataset).items()}
-    evidence, right, confidence = [], [], []
+    evidence, second, right, confidence = [], [], [], []
     with open(path) as file:
         for row in csv.reader(file):
             scene, image, obj_id = int(row[0]), int(row[1]), int(row[2])
@@ -52,9 +59,11 @@ def load(argument, frames, symmetric):
             pose = pose @ frames.get(obj_id, np.eye(4))
             truth = [entry for entry in scenes[scene][image] if entry["obj_id"] == obj_id]
             evidence.append(numbers[:len(NAMES)])
+            score, rival_score, explained = (float(value) for value in row[SCORE:FIRST])
+            second.append([score, min(score - rival_score, MOST_LEAD), explained, numbers[AGREEMENT]])
             right.append(obj_id in models and right_pose(models[obj_id], obj_id in symmetric, truth, pose))
             confidence.append(float(row[4]))
-    return np.array(evidence), np.array(right, float), np.array(confidence)
+    return np.array(evidence), np.array(second), np.array(right, float), np.array(confidence)
 
 
 def fit(evidence, right, regularisation):
@@ -71,6 +80,17 @@ def fit(evidence, right, regularisation):
             break
     scaled = weights[1:] / deviation
     return weights[0] - scaled @ mean, scaled
+
+
+def best(second):
+    """Of their places, and with a score at all."""
+    return (second[:, 1] >= 0) & (second[:, 0] > LEAST_SCORE)
+
+
+def tell(offset_name, weights_name, names, offset, weights):
+    print(f"constexpr float {offset_name} = {offset:.4f}F;")
+    print(f"constexpr {weights_name} = {{ " + ", ".join(f"{w:.4f}F" for w in weights) + " };")
+    print("  " + ", ".join(names))
 
 
 def report(name, p, right):
@@ -94,14 +114,15 @@ def main():
         frames = {int(k): inverse(np.array(v, float).reshape(4, 4)) for k, v in json.load(file).items()}
     sets = {a: load(a, frames, set(arguments.symmetric)) for a in arguments.candidates + arguments.test}
     used = [sets[a] for a in arguments.candidates]
-    offset, weights = fit(np.vstack([s[0] for s in used]), np.concatenate([s[1] for s in used]),
-                          arguments.regularisation)
-    print(f"constexpr float OFFSET = {offset:.4g}F;")
-    print("constexpr Evidence WEIGHTS = { " + ", ".join(f"{w:.4g}F" for w in weights) + " };")
-    print("  " + ", ".join(NAMES))
-    for argument, (evidence, right, given) in sets.items():
-        report(argument + ", fitted", 1 / (1 + np.exp(-(offset + evidence @ weights))), right)
-        report(argument + ", as given", given, right)
+    evidence, second, right = (np.concatenate([s[i] for s in used]) for i in range(3))
+    offset, weights = fit(evidence, right, arguments.regularisation)
+    tell("OFFSET", "Evidence WEIGHTS", NAMES, offset, weights)
+    offset, weights = fit(second[best(second)], right[best(second)], arguments.regularisation)
+    tell("CONFIDENCE_OFFSET", "std::array<float, 4> CONFIDENCE_WEIGHTS", SECOND_NAMES, offset, weights)
+    for argument, (_, second, right, given) in sets.items():
+        places = best(second)
+        report(argument + ", fitted", 1 / (1 + np.exp(-(offset + second[places] @ weights))), right[places])
+        report(argument + ", as given", given[places], right[places])
 
 
 if __name__ == "__main__":

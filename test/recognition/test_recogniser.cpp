@@ -2,69 +2,22 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "object_modelling/fusion/cloud_fusion.h"
-#include "support/synthetic_scene.h"
-#include "support/temp_dir.h"
-#include "support/thrown_status.h"
+#include "recognition_fixture.h"
 
 namespace object_modelling::recognition
 {
 namespace
 {
-using test_support::SceneObject;
 using test_support::SyntheticScene;
 
-const Eigen::Vector3d SIZE_M(0.08, 0.12, 0.2);
-constexpr std::uint32_t TEXTURE_SEED = 2;
-
-Eigen::Isometry3d lookingAtTable(double angle_rad, double height_m)
+void expectPose(const Eigen::Isometry3d& T_camera_model, const Eigen::Isometry3d& T_camera_truth)
 {
-  const Eigen::Vector3d eye(0.65 * std::cos(angle_rad), 0.65 * std::sin(angle_rad), height_m);
-  const Eigen::Vector3d z = (Eigen::Vector3d(0, 0, 0.08) - eye).normalized();
-  const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() << x, z.cross(x), z;
-  T.translation() = eye;
-  return T;
-}
-
-mesh::TriangleMesh boxMesh()
-{
-  mesh::TriangleMesh mesh;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const Eigen::Vector3d sign((corner & 1) - 0.5, ((corner >> 1) & 1) - 0.5, ((corner >> 2) & 1) - 0.5);
-    mesh.vertices.push_back(sign.cwiseProduct(SIZE_M).cast<float>());
-    mesh.colors.emplace_back(std::uint8_t{ 120 }, std::uint8_t{ 120 }, std::uint8_t{ 120 });
-  }
-  mesh.triangles = { { 0, 2, 1 }, { 1, 2, 3 }, { 4, 5, 6 }, { 5, 7, 6 }, { 0, 1, 4 }, { 1, 5, 4 },
-                     { 2, 6, 3 }, { 3, 6, 7 }, { 0, 4, 2 }, { 2, 4, 6 }, { 1, 3, 5 }, { 3, 7, 5 } };
-  mesh::computeNormals(&mesh);
-  return mesh;
-}
-
-/// A textured box, seen from all around but not from below.
-database::ObjectModel boxModel()
-{
-  SyntheticScene scene;
-  scene.objects = { test_support::standingBox(SIZE_M, 0, 0, 0, TEXTURE_SEED) };
-  std::vector<Eigen::Isometry3d> poses;
-  for (int i = 0; i < 10; ++i)
-    poses.push_back(lookingAtTable(2 * M_PI * i / 10, i % 2 == 0 ? 0.35 : 0.55));
-  database::ObjectModel model;
-  model.id = "box";
-  model.views = test_support::renderViews(scene, test_support::vgaCamera(), poses);
-  const Eigen::Isometry3d T_model_world = scene.objects[0].T_world_object.inverse();
-  for (rgbd::View& view : model.views)
-    rgbd::transform(T_model_world, &view);
-  base::JobControl control;
-  model.cloud = fusion::fuse(model.views, {}, control).cloud;
-  model.mesh = boxMesh();
-  model.box_model.size_m = SIZE_M;
-  model.diameter_m = SIZE_M.norm();
-  return model;
+  const Eigen::Isometry3d off = T_camera_truth.inverse() * T_camera_model;
+  EXPECT_LT(off.translation().norm(), 0.004);
+  EXPECT_LT(Eigen::AngleAxisd(off.linear()).angle(), 0.04);
 }
 
 class RecogniserTest : public ::testing::Test
@@ -84,15 +37,31 @@ protected:
     dir_.reset();
   }
 
-  static rgbd::Frame frameOf(const SyntheticScene& scene, const Eigen::Isometry3d& T_world_camera)
+  /// Also the detections that are hardly likely, so that bounds of their confidence mean something.
+  static RecogniserOptions everything()
   {
-    test_support::SensorNoise noise;
-    noise.depth_sigma_scale = 1;
-    noise.depth_quantum_m = 0.001;
-    noise.color_sigma = 2;
-    rgbd::Frame frame = test_support::renderFrame(scene, test_support::vgaCamera(), T_world_camera, noise);
-    frame.object_mask = cv::Mat();  // a recogniser is given none
-    return frame;
+    RecogniserOptions options;
+    options.min_confidence_ratio = 0.02;
+    return options;
+  }
+
+  /// The known box at another size, found by shape alone.
+  static std::shared_ptr<const ObjectKnowledge> other(int number, double scale)
+  {
+    ObjectKnowledge knowledge = *known_;
+    knowledge.id = "other_" + std::to_string(number);
+    knowledge.diameter_m *= scale;
+    knowledge.box_model.size_m *= scale;
+    knowledge.center_model *= static_cast<float>(scale);
+    for (Eigen::Vector3f& vertex : knowledge.mesh.vertices)
+      vertex *= static_cast<float>(scale);
+    for (auto* surface : { &knowledge.surface, &knowledge.texture })
+      for (Eigen::Vector3f& point : surface->oriented.points)
+        point *= static_cast<float>(scale);
+    knowledge.pairs = PairTable(knowledge.surface.oriented, knowledge.diameter_m);
+    knowledge.descriptors = cv::Mat();
+    knowledge.feature_points.clear();
+    return std::make_shared<const ObjectKnowledge>(std::move(knowledge));
   }
 
   static std::unique_ptr<test_support::TempDir> dir_;
@@ -113,22 +82,18 @@ TEST_F(RecogniserTest, LearnsSurfaceTextureAndPairs)
 
 TEST_F(RecogniserTest, FindsTheBoxWhereItStands)
 {
-  const Recogniser recogniser({ known_ });
+  const Recogniser recogniser({ known_ }, everything());
   for (const double yaw_rad : { 0.4, 2.6, 4.4 })
   {
-    SyntheticScene scene;
-    const SceneObject unknown = test_support::standingBox({ 0.1, 0.07, 0.05 }, -0.15, 0.1, 1, 9);
-    scene.objects = { test_support::standingBox(SIZE_M, 0.05, -0.04, yaw_rad, TEXTURE_SEED), unknown };
+    const SyntheticScene scene = boxBesideAnother(yaw_rad);
     const Eigen::Isometry3d T_world_camera = lookingAtTable(0.3, 0.45);
-    const std::vector<Detection> detections = recogniser.recognise(frameOf(scene, T_world_camera));
+    const std::vector<Detection> detections = recogniser.recognise(noisyFrame(scene, T_world_camera));
     ASSERT_GE(detections.size(), 1U) << "turned by " << yaw_rad;
-    const Eigen::Isometry3d off =
-        scene.objects[0].T_world_object.inverse() * T_world_camera * detections[0].T_camera_model;
-    EXPECT_LT(off.translation().norm(), 0.004) << "turned by " << yaw_rad;
-    EXPECT_LT(Eigen::AngleAxisd(off.linear()).angle(), 0.04) << "turned by " << yaw_rad;
+    SCOPED_TRACE(yaw_rad);
+    expectPose(detections[0].T_camera_model, T_world_camera.inverse() * scene.objects[0].T_world_object);
     EXPECT_GT(detections[0].confidence_ratio, 0.5);
     for (std::size_t i = 1; i < detections.size(); ++i)
-      EXPECT_LT(detections[i].confidence_ratio, 0.3) << "the unknown box is taken for the known one";
+      EXPECT_LT(detections[i].confidence_ratio, 0.5) << "the unknown box is taken for the known one";
   }
 }
 
@@ -137,7 +102,8 @@ TEST_F(RecogniserTest, FindsEveryInstance)
   SyntheticScene scene;
   scene.objects = { test_support::standingBox(SIZE_M, 0.1, -0.13, 0.5, TEXTURE_SEED),
                     test_support::standingBox(SIZE_M, -0.08, 0.12, 2.0, TEXTURE_SEED) };
-  const std::vector<Detection> detections = Recogniser({ known_ }).recognise(frameOf(scene, lookingAtTable(0.3, 0.5)));
+  const std::vector<Detection> detections =
+      Recogniser({ known_ }, everything()).recognise(noisyFrame(scene, lookingAtTable(0.3, 0.5)));
   ASSERT_GE(detections.size(), 2U);
   EXPECT_GT(detections[1].confidence_ratio, 0.3);
   EXPECT_GT((detections[0].T_camera_model.translation() - detections[1].T_camera_model.translation()).norm(), 0.2);
@@ -145,23 +111,81 @@ TEST_F(RecogniserTest, FindsEveryInstance)
 
 TEST_F(RecogniserTest, FindsNothingOnAnEmptyTable)
 {
-  const rgbd::Frame frame = frameOf(SyntheticScene(), lookingAtTable(0.3, 0.5));
-  for (const Detection& detection : Recogniser({ known_ }).recognise(frame))
+  const rgbd::Frame frame = noisyFrame(SyntheticScene(), lookingAtTable(0.3, 0.5));
+  for (const Detection& detection : Recogniser({ known_ }, everything()).recognise(frame))
     EXPECT_LT(detection.confidence_ratio, 0.1);
 }
 
 TEST_F(RecogniserTest, FindsNothingWithoutDepth)
 {
-  rgbd::Frame frame = frameOf(SyntheticScene(), lookingAtTable(0.3, 0.5));
+  rgbd::Frame frame = noisyFrame(SyntheticScene(), lookingAtTable(0.3, 0.5));
   frame.depth_m.setTo(std::numeric_limits<float>::quiet_NaN());
-  EXPECT_TRUE(Recogniser({ known_ }).recognise(frame).empty());
+  EXPECT_TRUE(Recogniser({ known_ }, everything()).recognise(frame).empty());
+}
+
+TEST_F(RecogniserTest, FindsTheBoxInTheAir)
+{
+  SyntheticScene scene;
+  scene.has_table = false;
+  scene.objects = { test_support::standingBox(SIZE_M, 0.03, -0.02, 2.3, TEXTURE_SEED) };
+  const Eigen::Isometry3d T_world_camera = lookingAtTable(0.3, 0.45);
+  const std::vector<Detection> detections = Recogniser({ known_ }).recognise(noisyFrame(scene, T_world_camera));
+  ASSERT_EQ(detections.size(), 1U);
+  expectPose(detections[0].T_camera_model, T_world_camera.inverse() * scene.objects[0].T_world_object);
+}
+
+TEST_F(RecogniserTest, AQuickSearchChoosesAmongManyObjects)
+{
+  std::vector<std::shared_ptr<const ObjectKnowledge>> objects;
+  for (int i = 0; i < 8; ++i)
+    objects.push_back(other(i, i < 4 ? 0.4 + 0.1 * i : 0.8 + 0.15 * i));
+  objects.push_back(known_);
+  RecogniserOptions options = everything();
+  options.use_texture = false;
+  options.objects_per_cluster = 2;
+  SyntheticScene scene;
+  scene.objects = { test_support::standingBox(SIZE_M, 0.05, -0.04, 2.6, TEXTURE_SEED) };
+  const Eigen::Isometry3d T_world_camera = lookingAtTable(0.3, 0.45);
+  const std::vector<Detection> detections = Recogniser(objects, options).recognise(noisyFrame(scene, T_world_camera));
+  ASSERT_GE(detections.size(), 1U);
+  EXPECT_EQ(detections[0].object_id, "box");
+  expectPose(detections[0].T_camera_model, T_world_camera.inverse() * scene.objects[0].T_world_object);
+}
+
+TEST_F(RecogniserTest, WhenTheTimeIsUpTextureIsEnough)
+{
+  RecogniserOptions options;
+  options.time_budget_s = 1e-6;
+  SyntheticScene scene;
+  scene.objects = { test_support::standingBox(SIZE_M, 0.05, -0.04, 2.6, TEXTURE_SEED) };
+  const Eigen::Isometry3d T_world_camera = lookingAtTable(0.3, 0.45);
+  const std::vector<Detection> detections =
+      Recogniser({ known_ }, options).recognise(noisyFrame(scene, T_world_camera));
+  ASSERT_EQ(detections.size(), 1U);
+  EXPECT_GT(detections[0].matched_features, 0);
+  expectPose(detections[0].T_camera_model, T_world_camera.inverse() * scene.objects[0].T_world_object);
+}
+
+TEST_F(RecogniserTest, OfPosesAtOnePlaceOneIsConfident)
+{
+  SyntheticScene scene;
+  scene.objects = { test_support::standingBox(SIZE_M, 0.05, -0.04, 2.6, TEXTURE_SEED) };
+  const Recogniser recogniser({ known_, other(0, 0.9) });
+  const std::vector<Candidate> candidates = recogniser.candidates(noisyFrame(scene, lookingAtTable(0.3, 0.45)));
+  ASSERT_GE(candidates.size(), 2U);
+  EXPECT_TRUE(std::is_sorted(candidates.begin(), candidates.end(),
+                             [](const Candidate& a, const Candidate& b) { return a.score > b.score; }));
+  EXPECT_GT(candidates[0].confidence, 0.7);
+  EXPECT_GT(candidates[0].score, candidates[0].rival_score);
+  for (std::size_t i = 1; i < candidates.size(); ++i)
+    EXPECT_LT(candidates[i].confidence, 0.1) << i;
 }
 
 TEST_F(RecogniserTest, SameImageSameDetections)
 {
   SyntheticScene scene;
   scene.objects = { test_support::standingBox(SIZE_M, 0.05, -0.04, 1.4, TEXTURE_SEED) };
-  const rgbd::Frame frame = frameOf(scene, lookingAtTable(0.3, 0.45));
+  const rgbd::Frame frame = noisyFrame(scene, lookingAtTable(0.3, 0.45));
   const std::vector<Detection> first = Recogniser({ known_ }).recognise(frame);
   const std::vector<Detection> second = Recogniser({ known_ }).recognise(frame);
   ASSERT_EQ(first.size(), second.size());

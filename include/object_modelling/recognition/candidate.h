@@ -32,12 +32,15 @@ struct Verification
   float contrast = 0;           ///< of the drawn colours over the explained pixels, standard deviation in L*a*b*
   float chroma_drawn = 0, chroma_seen = 0;  ///< of the mean colours
   float hue_cosine = 0;                     ///< between the mean colours' (a*, b*)
-  float fitted_distance = 0;  ///< median difference in L*a*b* after the best gain and offset of every channel
-  float edges = 0;            ///< share of that outline at which depth steps, the surface bends, or the colour changes
-  float flatness = 0;         ///< largest share of one direction in the drawn normals' squares, 1/3 to 1
-  float contour = 0;          ///< share of the outline (where nothing hides it) beyond which the scene goes back
-  std::vector<int> pixels;    ///< explained ones, as row * width + column of the thinned image
+  float edges = 0;          ///< share of that outline at which depth steps, the surface bends, or the colour changes
+  float flatness = 0;       ///< largest share of one direction in the drawn normals' squares, 1/3 to 1
+  float contour = 0;        ///< share of the outline (where nothing hides it) beyond which the scene goes back
+  std::vector<int> pixels;  ///< explained ones, as row * width + column of the thinned image
+
   float visible() const { return explained + violated; }
+  float explainedOfVisible() const;
+  float texture() const;    ///< from 0 (plain) to 1 (textured), by the contrast
+  float agreement() const;  ///< of the colours: their correlation, as far as there is texture
 };
 
 /// A hypothesis that was aligned with the scene, and how well it then fits.
@@ -46,8 +49,9 @@ struct Candidate
   PoseHypothesis hypothesis;
   geometry::Matrix6d covariance = geometry::Matrix6d::Zero();  ///< of its pose
   Verification verification;
-  float score = 0;       ///< logarithm of the odds that it is right, by itself
-  float confidence = 0;  ///< chance that it is right, beside the others at its place
+  float score = 0;        ///< logarithm of the odds that it is right, by itself
+  float rival_score = 0;  ///< of the best other one at its place
+  float confidence = 0;   ///< chance that it is right, beside the others at its place
 };
 
 /// What speaks for and against a candidate, as its confidence weighs it.

@@ -27,6 +27,7 @@ struct RecogniserOptions
 };
 
 struct Scene;
+class Deadline;
 
 /// An object found in an image.
 struct Detection
@@ -58,7 +59,7 @@ public:
   std::vector<Candidate> candidates(const rgbd::Frame& frame) const;
 
 private:
-  std::vector<Candidate> search(const Scene& scene) const;
+  std::vector<Candidate> search(const Scene& scene, const Deadline& deadline) const;
 
   struct Data;
   std::unique_ptr<Data> data_;

@@ -9,7 +9,7 @@
 
 namespace object_modelling::recognition
 {
-/// Rotations under which an object looks the same. Those of a ball are not closed: it has one round axis here.
+/// Rotations under which an object looks the same.
 class SymmetryGroup
 {
 public:
@@ -26,6 +26,7 @@ public:
 private:
   std::vector<Eigen::Matrix3d> turns_{ Eigen::Matrix3d::Identity() };
   std::optional<Eigen::Vector3d> round_axis_;
+  bool ball_ = false;  // two round axes make every turn one
 };
 
 }  // namespace object_modelling::recognition
