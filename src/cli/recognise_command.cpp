@@ -73,12 +73,18 @@ std::vector<std::string> chosenIds(const RecogniseArguments& arguments, const da
 }
 
 std::vector<std::shared_ptr<const recognition::ObjectKnowledge>> learn(const RecogniseArguments& arguments,
-                                                                       base::JobControl& control)
+                                                                       base::JobControl& control, std::string* note)
 {
-  const database::ObjectDatabase database(arguments.database, false);
+  database::ObjectDatabase database(arguments.database, false);
   std::vector<std::shared_ptr<const recognition::ObjectKnowledge>> objects;
   for (const std::string& id : chosenIds(arguments, database))
-    objects.push_back(recognition::learnObject(database, database.entry(id), {}, control));
+  {
+    const recognition::LearntObject learnt = recognition::recallOrLearn(database, database.entry(id), {}, control);
+    if (!learnt.kept.ok())
+      *note =
+          "What was learnt of the objects is used, but cannot be kept for the next time: " + learnt.kept.message + "\n";
+    objects.push_back(learnt.knowledge);
+  }
   return objects;
 }
 
@@ -259,7 +265,8 @@ CommandOutput run(const RecogniseArguments& arguments, base::JobControl& control
   if (!arguments.csv.empty())
     requireOutputFolder(arguments.csv);
   const std::vector<OpenRecording> recordings = openAll(arguments.recordings);
-  const auto objects = learn(arguments, control);
+  Results results;
+  const auto objects = learn(arguments, control, &results.output.text);
   std::vector<std::string> ids;
   for (const auto& object : objects)
     ids.push_back(object->id);
@@ -269,7 +276,6 @@ CommandOutput run(const RecogniseArguments& arguments, base::JobControl& control
     numbers[ids[i]] = object_numbers[i];
 
   const recognition::Recogniser recogniser(objects, arguments.options);
-  Results results;
   writeBopHeader(results.csv);
   for (const OpenRecording& recording : recordings)
     searchRecording(recording, static_cast<std::size_t>(arguments.every), recogniser, numbers, control, &results);

@@ -192,6 +192,32 @@ void ObjectDatabase::remakeReport(const std::string& object_id, base::JobControl
          });
 }
 
+std::string ObjectDatabase::derivedPath(const std::string& root, const std::string& object_id, const std::string& name)
+{
+  return root + "/" + object_id + "/recognition/" + name;
+}
+
+bool ObjectDatabase::keepDerived(const std::string& object_id, const std::string& content_hash, const std::string& name,
+                                 const std::function<void(const std::string& path)>& write,
+                                 const base::JobControl& control)
+{
+  checkObjectId(object_id);
+  bool kept = false;
+  change(root_, object_id, control,
+         [&]
+         {
+           const Manifest manifest = readManifest(manifestPath(root_));
+           const auto listed = manifest.objects.find(object_id);
+           if (listed == manifest.objects.end() || listed->second.content_hash != content_hash)
+             return;
+           const std::string path = derivedPath(root_, object_id, name);
+           fs::create_directories(fs::path(path).parent_path());
+           base::writeFileAtomically(path, write);
+           kept = true;
+         });
+  return kept;
+}
+
 void ObjectDatabase::remove(const std::string& object_id)
 {
   checkObjectId(object_id);

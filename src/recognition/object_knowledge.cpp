@@ -5,6 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "knowledge_file.h"
 #include "lab_color.h"
 #include "object_modelling/base/options.h"
 #include "object_modelling/database/cloud_file.h"
@@ -18,6 +19,8 @@ namespace object_modelling::recognition
 {
 namespace
 {
+constexpr char FILE_NAME[] = "knowledge.bin";
+
 /// Every n-th cloud point, so that about `count` remain.
 ColoredSurface surfaceOf(const fusion::FusedCloud& cloud, std::size_t count)
 {
@@ -64,6 +67,41 @@ void learnFeatures(const std::vector<rgbd::View>& views, const LearningOptions& 
     }
   }
 }
+
+/// What the database says of it.
+ObjectKnowledge describedBy(const database::ObjectEntry& entry)
+{
+  ObjectKnowledge object;
+  object.id = entry.id;
+  object.name = entry.name;
+  object.content_hash = entry.content_hash;
+  object.diameter_m = entry.diameter_m;
+  object.box_model = entry.box_model;
+  object.center_model = entry.box_model.T_frame_box.translation().cast<float>();
+  return object;
+}
+
+/// What is in its files; this takes time.
+void learn(const database::ObjectDatabase& database, const database::ObjectEntry& entry, const LearningOptions& options,
+           base::JobControl& control, ObjectKnowledge* object)
+{
+  const std::string folder = database.root() + "/" + entry.id;
+  const fusion::FusedCloud cloud = database::readCloud(folder + "/cloud.pcd");
+  object->surface = surfaceOf(cloud, options.surface_points);
+  object->texture = surfaceOf(cloud, options.texture_points);
+  object->colored = std::any_of(cloud.colors.begin(), cloud.colors.end(),
+                                [&](const auto& color) { return color != cloud.colors.front(); });
+  object->pairs = PairTable({ cloud.points, cloud.normals }, object->diameter_m, options.pairs);
+  object->mesh = fewTriangles(mesh::readMesh(entry.mesh_path), options);
+  learnFeatures(database::readViews(folder, options.max_views), options, control, object);
+}
+
+void addSymmetries(const database::ObjectEntry& entry, ObjectKnowledge* object)
+{
+  using Of = object_properties::Symmetry::Of;
+  if (entry.properties)
+    object->symmetries = SymmetryGroup(entry.properties->symmetries, object->colored ? Of::TEXTURE : Of::SHAPE);
+}
 }  // namespace
 
 std::vector<std::string> LearningOptions::violations() const
@@ -78,27 +116,41 @@ std::shared_ptr<const ObjectKnowledge> learnObject(const database::ObjectDatabas
                                                    const database::ObjectEntry& entry, const LearningOptions& options,
                                                    base::JobControl& control)
 {
-  auto object = std::make_shared<ObjectKnowledge>();
-  object->id = entry.id;
-  object->name = entry.name;
-  object->content_hash = entry.content_hash;
-  object->diameter_m = entry.diameter_m;
-  object->box_model = entry.box_model;
-  object->center_model = entry.box_model.T_frame_box.translation().cast<float>();
-  const std::string folder = database.root() + "/" + entry.id;
-  const fusion::FusedCloud cloud = database::readCloud(folder + "/cloud.pcd");
-  object->surface = surfaceOf(cloud, options.surface_points);
-  object->texture = surfaceOf(cloud, options.texture_points);
-  object->colored = std::any_of(cloud.colors.begin(), cloud.colors.end(),
-                                [&](const auto& color) { return color != cloud.colors.front(); });
-  if (entry.properties)
-    object->symmetries =
-        SymmetryGroup(entry.properties->symmetries, object->colored ? object_properties::Symmetry::Of::TEXTURE
-                                                                    : object_properties::Symmetry::Of::SHAPE);
-  object->pairs = PairTable({ cloud.points, cloud.normals }, object->diameter_m, options.pairs);
-  object->mesh = fewTriangles(mesh::readMesh(entry.mesh_path), options);
-  learnFeatures(database::readViews(folder, options.max_views), options, control, object.get());
+  auto object = std::make_shared<ObjectKnowledge>(describedBy(entry));
+  learn(database, entry, options, control, object.get());
+  addSymmetries(entry, object.get());
   return object;
+}
+
+LearntObject recallOrLearn(database::ObjectDatabase& database, const database::ObjectEntry& entry,
+                           const LearningOptions& options, base::JobControl& control)
+{
+  LearntObject learnt;
+  auto object = std::make_shared<ObjectKnowledge>(describedBy(entry));
+  const std::string key = knowledgeKey(entry.content_hash, options);
+  learnt.recalled =
+      readKnowledge(database::ObjectDatabase::derivedPath(database.root(), entry.id, FILE_NAME), key, object.get());
+  if (!learnt.recalled)
+  {
+    learn(database, entry, options, control, object.get());
+    try
+    {
+      database.keepDerived(
+          entry.id, entry.content_hash, FILE_NAME, [&](const std::string& path) { writeKnowledge(path, key, *object); },
+          control);
+    }
+    catch (const base::Cancelled&)
+    {
+      throw;
+    }
+    catch (const base::Error& error)
+    {
+      learnt.kept = error.status();
+    }
+  }
+  addSymmetries(entry, object.get());
+  learnt.knowledge = std::move(object);
+  return learnt;
 }
 
 }  // namespace object_modelling::recognition

@@ -144,7 +144,7 @@ PairTable::PairTable(const OrientedPoints& surface, double diameter_m, const Pai
       const int distance =
           std::min(static_cast<int>(f.distance_m / static_cast<float>(spacing_m_)), distance_bins_ - 1);
       all.push_back({ static_cast<std::uint32_t>(keyOf(distance, bin(f.a_rad), bin(f.b_rad), bin(f.c_rad))),
-                      { static_cast<std::uint16_t>(i), turnOf(T_reference_model_[i], points_.points[j]) } });
+                      { static_cast<std::uint32_t>(i), turnOf(T_reference_model_[i], points_.points[j]) } });
     }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   starts_.assign(keyOf(distance_bins_, 0, 0, 0) + 1, 0);

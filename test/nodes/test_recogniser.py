@@ -133,6 +133,7 @@ class RecogniserTest(unittest.TestCase):
         self.without_database()
         shutil.copytree(self.made, self.root)
         self.wait_for_known("mustard")
+        self.assertTrue(os.path.isfile(os.path.join(self.root, "mustard", "recognition", "knowledge.bin")))
         self.without_frames()
         self.searches_given_images()
         self.gives_the_model()

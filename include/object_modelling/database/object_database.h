@@ -71,6 +71,11 @@ public:
   /// Brings an object of an older schema to the present one: properties of its mesh are added, all else stays, in one
   /// atomic step. False if it is up to date.
   bool migrate(const std::string& object_id, base::JobControl& control);
+  /// Keeps a file that follows from an object, as its recognition/<name>; no part of the object and its hash. False if
+  /// the object is not the one of that content hash any more. `write` is given the path of a temporary file.
+  bool keepDerived(const std::string& object_id, const std::string& content_hash, const std::string& name,
+                   const std::function<void(const std::string& path)>& write, const base::JobControl& control);
+  static std::string derivedPath(const std::string& root, const std::string& object_id, const std::string& name);
   /// Every broken file, hash, unit or frame, one message each; empty when sound.
   std::vector<std::string> check() const;
   const std::string& root() const { return root_; }

@@ -58,4 +58,17 @@ std::shared_ptr<const ObjectKnowledge> learnObject(const database::ObjectDatabas
                                                    const database::ObjectEntry& entry, const LearningOptions& options,
                                                    base::JobControl& control);
 
+/// An object that is known, and whether it will be known at once the next time.
+struct LearntObject
+{
+  std::shared_ptr<const ObjectKnowledge> knowledge;
+  bool recalled = false;  ///< it was learnt earlier, and only read
+  base::Status kept;      ///< STORAGE: why what was learnt could not be written
+};
+
+/// As learnObject(), or read from recognition/ in the object's folder if the same was learnt earlier; else kept there.
+/// A damaged file, or one of another version, is learnt anew.
+LearntObject recallOrLearn(database::ObjectDatabase& database, const database::ObjectEntry& entry,
+                           const LearningOptions& options, base::JobControl& control);
+
 }  // namespace object_modelling::recognition

@@ -54,9 +54,13 @@ public:
             std::vector<VotedPose>* poses) const;
 
 private:
+  /// Reads or writes all of a table (knowledge_file.cpp).
+  template <class Archive>
+  friend void archivePairs(Archive& archive, PairTable& table);
+
   struct Entry
   {
-    std::uint16_t reference = 0;
+    std::uint32_t reference = 0;
     float turn_rad = 0;  ///< of the pair's other point about the reference's normal
   };
   /// Adds the poses of the largest entries; spoils the accumulator.

@@ -117,19 +117,24 @@ DatabaseWatch::Learnt DatabaseWatch::learn(const std::string& id, const std::str
 {
   Learnt learnt;
   learnt.manifest_hash = manifest_hash;
+  recognition::LearntObject object;
   const base::Status status = ros_bridge::guarded(
       [&]
       {
-        const database::ObjectDatabase database(root_, false);
-        learnt.knowledge = recognition::learnObject(database, database.entry(id), {}, control_);
+        database::ObjectDatabase database(root_, false);
+        object = recognition::recallOrLearn(database, database.entry(id), {}, control_);
       });
   control_.checkCancelled();
+  learnt.knowledge = object.knowledge;
   learnt.failure = status.message;
   if (status.ok())
-    ROS_INFO("object '%s' is learnt", id.c_str());
+    ROS_INFO("object '%s' is %s", id.c_str(), object.recalled ? "known from earlier" : "learnt");
   else
     ROS_WARN("object '%s' of %s cannot be learnt and is left out: %s", id.c_str(), root_.c_str(),
              status.message.c_str());
+  if (!object.kept.ok())
+    ROS_WARN("object '%s' works from memory, and has to be learnt again after the next start: %s", id.c_str(),
+             object.kept.message.c_str());
   return learnt;
 }
 
