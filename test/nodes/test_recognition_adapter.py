@@ -181,7 +181,7 @@ class RecognitionAdapterTest(unittest.TestCase):
         corners = np.array([(p.x, p.y, p.z) for p in first.bounding_mesh.vertices])
         np.testing.assert_allclose(corners.mean(0), [0.01, 0, 0.6], atol=1e-9)
         np.testing.assert_allclose(np.ptp(corners, 0), 3 * [SIDE_M], atol=1e-9)
-        triangles = corners[[t.vertex_indices for t in first.bounding_mesh.triangles]] - corners.mean(0)
+        triangles = corners[np.array([t.vertex_indices for t in first.bounding_mesh.triangles])] - corners.mean(0)
         volumes = np.linalg.det(triangles) / 6
         self.assertTrue((volumes > 0).all())  # counter-clockwise seen from outside
         self.assertAlmostEqual(volumes.sum(), SIDE_M ** 3)
