@@ -5,9 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include <Eigen/Eigenvalues>
-
 #include "object_modelling/base/statistics.h"
+#include "object_modelling/geometry/linear_systems.h"
 #include "object_modelling/rgbd/surface_fit.h"
 
 namespace object_modelling::bundle_adjustment
@@ -67,10 +66,9 @@ bool intersectRays(const std::vector<Sight>& sights, const std::vector<rgbd::Key
     A += across;
     b += across * T.translation();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(A);
-  if (eigen.eigenvalues()[0] < MIN_RAY_SPREAD * static_cast<double>(sights.size()))
+  if (geometry::eigenSystem(A).values[0] < MIN_RAY_SPREAD * static_cast<double>(sights.size()))
     return false;
-  *point = A.ldlt().solve(b);
+  *point = geometry::solveSymmetric(A, b);
   return point->allFinite();
 }
 

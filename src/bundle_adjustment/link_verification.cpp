@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "object_modelling/features/relative_pose.h"
+#include "object_modelling/geometry/linear_systems.h"
 #include "object_modelling/rgbd/visibility.h"
 
 namespace object_modelling::bundle_adjustment
@@ -38,9 +37,9 @@ bool spread(const std::vector<features::PointPair>& pairs, const std::vector<int
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (int i : inliers)
     scatter += (pairs[i].p_a - mean) * (pairs[i].p_a - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter / static_cast<double>(inliers.size()),
-                                                             Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, eigen.eigenvalues()[1])) > MIN_SPREAD_RATIO * mean.norm();
+  scatter /= static_cast<double>(inliers.size());
+  const Eigen::Vector3d variances = geometry::eigenSystem(scatter).values;
+  return std::sqrt(std::max(0.0, variances[1])) > MIN_SPREAD_RATIO * mean.norm();
 }
 
 /// Seed of one pair, so that its random draws do not depend on which other pairs are tried.

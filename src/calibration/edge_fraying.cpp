@@ -4,8 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Dense>
 #include <opencv2/imgproc.hpp>
+
+#include "object_modelling/geometry/linear_systems.h"
 
 namespace object_modelling::calibration
 {
@@ -142,7 +143,7 @@ bool straighten(const cv::Mat& kinds, Rim* rim)
       return false;
     if (iteration > 0)
       wander_px = std::max(0.3, std::sqrt(sum / count));
-    line = A.ldlt().solve(b);
+    line = geometry::solveSymmetric(A, b);
   }
   const Eigen::Vector2d start = rim->start + line[0] * rim->out;
   const Eigen::Vector2d end =
@@ -191,7 +192,7 @@ double stepError(const EdgeProfile& profile, double middle_px, double sigma_px)
     b += profile.all[i] * share * row;
     squares += profile.all[i] * share * share;
   }
-  const Eigen::Vector2d levels = A.ldlt().solve(b);
+  const Eigen::Vector2d levels = geometry::solveSymmetric(A, b);
   return squares - 2 * levels.dot(b) + levels.dot(A * levels);
 }
 
@@ -273,7 +274,7 @@ void fitLateralSigma(const EdgeProfiles& profiles, const NoiseCalibrationOptions
     grazing.reason = widest_rad < options.grazing_from_rad ? "no edges at more than 65 deg from the wall's normal"
                                                            : "the edges do not fray more at large angles";
     model.lateral_constant_px = std::clamp(mean_px / length_px, 0.0, 20.0);
-    const Eigen::Vector2d both = A.ldlt().solve(b);
+    const Eigen::Vector2d both = geometry::solveSymmetric(A, b);
     if (groups >= 3 && widest_rad >= options.grazing_from_rad && both[0] > 0 && both[1] >= 0 && both[1] < 20)
     {
       model.lateral_constant_px = both[0];

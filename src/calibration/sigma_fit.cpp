@@ -7,9 +7,8 @@
 #include <sstream>
 #include <utility>
 
-#include <Eigen/Dense>
-
 #include "object_modelling/base/statistics.h"
+#include "object_modelling/geometry/linear_systems.h"
 
 namespace object_modelling::calibration
 {
@@ -54,7 +53,7 @@ Growth fitGrowth(const std::vector<const NoiseBin*>& bins, const rgbd::SensorNoi
   growth.constant_m = share / weight;
   if (with_growth)
   {
-    const Eigen::Vector2d both = A.ldlt().solve(b);
+    const Eigen::Vector2d both = geometry::solveSymmetric(A, b);
     if (both.allFinite() && both[0] > 0 && both[1] >= 0)
       return { true, both[0], both[1] };
   }

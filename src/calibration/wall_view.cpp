@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <opencv2/imgproc.hpp>
 
 #include "object_modelling/base/statistics.h"
+#include "object_modelling/geometry/linear_systems.h"
 #include "object_modelling/segmentation/scene_segmenter.h"
 
 namespace object_modelling::calibration
@@ -104,7 +104,7 @@ bool measureBlock(const std::vector<Pixel>& pixels, const WallView& view, double
       return false;
     if (iteration > 0)
       sigma_m = std::sqrt(sum / (inliers - 3));
-    local = A.ldlt().solve(b);
+    local = geometry::solveSymmetric(A, b);
   }
   block->sigma_m = sigma_m;
   block->offset_ratio = local[2] / block->z_m;

@@ -1,6 +1,6 @@
 #include "object_modelling/geometry/plane.h"
 
-#include <Eigen/Eigenvalues>
+#include "object_modelling/geometry/linear_systems.h"
 
 namespace object_modelling::geometry
 {
@@ -25,10 +25,10 @@ bool fitPlane(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d&
     moments += (p - mean) * (p - mean).transpose();
   if (!moments.allFinite())
     return false;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments);  // eigenvalues ascend
-  if (!(solver.eigenvalues()[1] > 1e-12 * solver.eigenvalues()[2]))
+  const EigenSystem<3> system = eigenSystem(moments);
+  if (!(system.values[1] > 1e-12 * system.values[2]))
     return false;
-  plane->normal = solver.eigenvectors().col(0).normalized();
+  plane->normal = system.vectors.col(0).normalized();
   if (plane->normal.dot(viewpoint - mean) < 0)
     plane->normal = -plane->normal;
   plane->offset_m = -plane->normal.dot(mean);

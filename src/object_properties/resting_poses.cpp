@@ -8,6 +8,7 @@
 #include "hull_regions.h"
 #include "object_modelling/base/disjoint_sets.h"
 #include "object_modelling/base/options.h"
+#include "object_modelling/geometry/transform.h"
 
 namespace object_modelling::object_properties
 {
@@ -117,8 +118,7 @@ int familyOf(const Eigen::Isometry3d& T_support_model, const std::vector<Family>
 Eigen::Isometry3d restingOn(const HullRegion& region, const Eigen::Vector3d& center_of_mass_m)
 {
   Eigen::Isometry3d T_support_model = Eigen::Isometry3d::Identity();
-  T_support_model.linear() =
-      Eigen::Quaterniond::FromTwoVectors(region.normal, -Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  T_support_model.linear() = geometry::rotationBetween(region.normal, -Eigen::Vector3d::UnitZ());
   T_support_model.translation().z() = region.height_m + region.normal.dot(center_of_mass_m);
   return T_support_model;
 }

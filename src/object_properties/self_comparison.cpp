@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include "object_modelling/base/statistics.h"
+#include "object_modelling/geometry/linear_systems.h"
 #include "object_modelling/geometry/so3.h"
 #include "object_modelling/mesh/mesh_topology.h"
 #include "object_modelling/mesh/surface_sampling.h"
@@ -79,9 +77,9 @@ void SelfComparison::describe()
       const Eigen::Vector3d p = points_[i].cast<double>() - centroid_;
       second += p * p.transpose() / count;
     }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(second);
-  moments_m2_ = solver.eigenvalues();
-  moment_axes_ = solver.eigenvectors();
+  const geometry::EigenSystem<3> moments = geometry::eigenSystem(second);
+  moments_m2_ = moments.values;
+  moment_axes_ = moments.vectors;
   for (int i = 0; i < DIAMETER_DIRECTIONS; ++i)
   {
     const Eigen::Vector3f along = direction(i, DIAMETER_DIRECTIONS);
@@ -170,7 +168,7 @@ Axis SelfComparison::refined(const Axis& axis, double angle_rad) const
     }
     // Where the surface slides on itself nothing holds it: it stays.
     A.diagonal().array() += 1e-3 * A.trace() / 6 + 1e-12;
-    const Eigen::Matrix<double, 6, 1> xi = A.ldlt().solve(b);
+    const Eigen::Matrix<double, 6, 1> xi = geometry::solveSymmetric(A, b);
     Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
     motion.linear() = geometry::rotationFromVector(xi.head<3>() / diameter_m_);
     motion.translation() = centroid_ - motion.linear() * centroid_ + xi.tail<3>();

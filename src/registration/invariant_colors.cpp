@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Dense>
-
 #include "object_modelling/base/statistics.h"
+#include "object_modelling/geometry/linear_systems.h"
 #include "object_modelling/geometry/point_index.h"
 
 namespace object_modelling::registration
@@ -61,7 +60,7 @@ std::vector<float> shadingOf(const std::vector<float>& values, const std::vector
       A += weights[i] * x * x.transpose();
       b += weights[i] * values[i] * x;
     }
-    light = A.ldlt().solve(b);
+    light = geometry::solveSymmetric(A, b);
     for (std::size_t i = 0; i < values.size(); ++i)
       left[i] = values[i] - light.dot(harmonicsOf(normals[i]));
     const double scatter = std::max(MIN_SCATTER, base::robustDeviation(left));

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <Eigen/Dense>
+#include "object_modelling/geometry/linear_systems.h"
 
 namespace object_modelling::registration
 {
@@ -39,7 +39,7 @@ void LightDifference::solve()
     // Differences of texture are noise here, and as many of them as there are patches.
     Eigen::Matrix4d damped = A_ + 1e-6 * Eigen::Matrix4d::Identity();
     damped.diagonal().head<3>().array() += count / PATCHES * variance[channel] / (LIGHT_SIGMA * LIGHT_SIGMA);
-    light_.col(channel) = damped.ldlt().solve(B_.col(channel)).cast<float>();
+    light_.col(channel) = geometry::solveSymmetric(damped, Eigen::Vector4d(B_.col(channel))).cast<float>();
   }
 }
 

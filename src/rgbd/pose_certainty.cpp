@@ -5,9 +5,8 @@
 #include <cstdint>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
-
 #include "object_modelling/base/statistics.h"
+#include "object_modelling/geometry/linear_systems.h"
 
 namespace object_modelling::rgbd
 {
@@ -26,7 +25,7 @@ double greatestSigma(const Eigen::Matrix3d& block)
 {
   if (!block.allFinite())
     return std::numeric_limits<double>::infinity();
-  const Eigen::Vector3d variances = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block).eigenvalues();
+  const Eigen::Vector3d variances = geometry::eigenSystem(block).values;
   const bool is_covariance = variances.x() >= -NEGATIVE_RATIO * std::abs(variances.z());
   return is_covariance ? std::sqrt(std::max(0.0, variances.z())) : std::numeric_limits<double>::infinity();
 }

@@ -1,12 +1,19 @@
 """Includes go one way: each library sees only those below it, and no ROS below ros_bridge."""
 
 import os
+import re
 import unittest
 
 import source_tree
 
 ROS_HEADERS = ("ros/", "tf2", "sensor_msgs/", "geometry_msgs/", "std_msgs/", "nav_msgs/", "visualization_msgs/",
                "actionlib", "cv_bridge/", "rosbag/", "pcl_conversions/", "message_filters/", "interactive_markers/")
+
+# Per pixel or per patch, or kept and solved again: a call and a matrix on the heap would cost more than the compiler.
+DECOMPOSING_FILES = {"src/" + path for path in (
+    "geometry/linear_systems.cpp", "geometry/transform.cpp", "bundle_adjustment/pose_covariance.cpp",
+    "calibration/wall_view.cpp", "fusion/surfel_fit.cpp", "recognition/verification.cpp",
+    "segmentation/plane_moments.cpp")}
 
 
 class LayeringTest(unittest.TestCase):
@@ -77,6 +84,19 @@ class LibraryHabitsTest(unittest.TestCase):
                 source = text.read()
             for banned in (r"\bexit\s*\(", r"\babort\s*\(", r"std::cout", r"std::cerr", r"\bsystem\s*\("):
                 self.assertNotRegex(source, banned, f"{path}")
+
+    def test_decompositions_are_compiled_once(self):
+        """geometry/linear_systems and rotationBetween have them: Eigen's templates cost each file seconds."""
+        costly = re.compile(r"\.(ldlt|llt|jacobiSvd|bdcSvd|colPivHouseholderQr|householderQr|fullPivLu|partialPivLu)\(|"
+                            r"FromTwoVectors|Hyperplane<[^;]*::Through|\b(SelfAdjoint)?EigenSolver<|"
+                            r"(JacobiSVD|[^l]LDLT|[^l]LLT)<")
+        users = set()
+        for path in source_tree.cpp_files("include", "src"):
+            with open(path) as text:
+                if costly.search(text.read()):
+                    users.add(os.path.relpath(path, source_tree.ROOT))
+        self.assertLessEqual(users, DECOMPOSING_FILES)
+        self.assertLessEqual(DECOMPOSING_FILES, users, "no longer needed in the list")
 
     def test_files_stay_small(self):
         too_long = {}

@@ -7,7 +7,7 @@
 #include "object_modelling/geometry/transform.h"
 
 // Solvers of the small symmetric systems of poses, and of dense ones. Eigen's decompositions are templates that cost
-// the compiler seconds in each file that uses them; here each is compiled once.
+// the compiler seconds in each file that uses them; here each is compiled once, and test/architecture asks for these.
 namespace object_modelling::geometry
 {
 using Vector6f = Eigen::Matrix<float, 6, 1>;
@@ -18,6 +18,12 @@ using Matrix6f = Eigen::Matrix<float, 6, 6>;
 Vector6d solveSymmetric(const Matrix6d& A, const Vector6d& b);
 Vector6f solveSymmetric(const Matrix6f& A, const Vector6f& b);
 Eigen::VectorXd solveSymmetric(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+template <int Size>
+Eigen::Matrix<double, Size, 1> solveSymmetric(const Eigen::Matrix<double, Size, Size>& A,
+                                              const Eigen::Matrix<double, Size, 1>& b)
+{
+  return solveSymmetric(Eigen::MatrixXd(A), Eigen::VectorXd(b));
+}
 
 /// The same; nothing if the reciprocal condition of A is below `min_rcond`.
 std::optional<Vector6d> solveWellPosed(const Matrix6d& A, const Vector6d& b, double min_rcond = 1e-12);
