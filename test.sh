@@ -22,7 +22,10 @@ while [ $# -gt 0 ]; do
 done
 if [ -n "$sanitize" ]; then
   build_dir="$build_dir/asan" build_type=Debug
-  cmake_arguments=("-DCMAKE_CXX_FLAGS=-fsanitize=address,undefined -fno-omit-frame-pointer -O1 -g" -DOBJECT_MODELLING_SANITIZE=ON)
+  # Checks of null and alignment make Eigen's templates take 3.5 times as long to compile; a null pointer stops the
+  # program anyway, and Eigen asserts the alignment that it needs.
+  cmake_arguments=("-DCMAKE_CXX_FLAGS=-fsanitize=address,undefined -fno-sanitize=null,alignment -fno-omit-frame-pointer -O1 -g"
+    -DOBJECT_MODELLING_SANITIZE=ON)
 fi
 install_missing
 build
