@@ -106,7 +106,7 @@ TEST_F(BodyLinks, SurfaceInCommonHoldsBodiesSeenFromVeryDifferentSides)
   corner.has_table = false;
   corner.objects[0].T_world_object =
       Eigen::Translation3d(0, 0, 0.08) *
-      geometry::rotationBetween(Eigen::Vector3d::Ones().eval(), Eigen::Vector3d::UnitX().eval());
+      Eigen::Quaterniond(geometry::rotationBetween(Eigen::Vector3d::Ones().eval(), Eigen::Vector3d::UnitX().eval()));
   options_.object_only = true;
   options_.max_view_angle_rad = 0.2;
   add(viewsFrom(0, 0.15, 3, corner));
